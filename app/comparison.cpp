@@ -1,0 +1,80 @@
+#include "app/comparison.hpp"
+
+#include <cmath>
+
+#include "output/comparison_table.hpp"
+#include "output/metrics.hpp"
+
+namespace undex::app {
+namespace {
+
+const scene::Probe* find_probe(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Probe& probe : scene.probes)
+    if (probe.name == name) return &probe;
+  return nullptr;
+}
+
+/// The component of a vector history along the outward radius at the probe.
+output::Series radial(const scene::Scene& scene, const Probes& probes, const scene::Probe& probe, const std::string& quantity) {
+  const auto* tube = std::get_if<fem::TubeMesh>(&scene.structure->mesh);
+  Vec3 outward = probe.point - (tube ? tube->center : Vec3::Zero());
+  outward[tube ? tube->axis : 2] = 0.0;
+  outward.normalize();
+  output::Series sum;
+  const char* const component[3] = {"_x", "_y", "_z"};
+  for (int a = 0; a < 3; ++a) {
+    const output::Series part = probes.series(probe.name, quantity + component[a]);
+    if (sum.empty()) sum = {part.t, std::vector<double>(part.y.size(), 0.0)};
+    for (std::size_t k = 0; k < part.y.size(); ++k) sum.y[k] += outward[a] * part.y[k];
+  }
+  return sum;
+}
+
+std::filesystem::path reference_path(const scene::Scene& scene) {
+  return scene.file.parent_path() / scene.comparison.reference;
+}
+
+output::NamedNumbers rigid_cylinder(const scene::Scene& scene, const Probes& probes) {
+  output::Series reference;
+  if (!scene.comparison.reference.empty()) {
+    const std::filesystem::path history = reference_path(scene).parent_path() / "midline_wall_pressure.csv";
+    if (std::filesystem::exists(history)) reference = output::read_series(history);
+  }
+  return output::rigid_cylinder_metrics(probes.series(scene.comparison.probe, "pressure"), reference);
+}
+
+/// The compared probe gives displacement and velocity; the first wall probe gives the pressure; the plastic strain is that
+/// of another structure probe (mid-wall), or of the compared one.
+output::NamedNumbers tube(const scene::Scene& scene, const Probes& probes) {
+  output::TubeHistories histories;
+  const scene::Probe* outer = find_probe(scene, scene.comparison.probe);
+  if (outer && scene.structure) {
+    histories.displacement = radial(scene, probes, *outer, "displacement");
+    histories.velocity = radial(scene, probes, *outer, "velocity");
+    histories.plastic_strain = probes.series(outer->name, "plastic_strain");
+  }
+  for (const scene::Probe& probe : scene.probes) {
+    if (probe.kind == scene::Probe::Kind::wall && histories.pressure.empty())
+      histories.pressure = probes.series(probe.name, "pressure");
+    if (probe.kind == scene::Probe::Kind::structure && probe.name != scene.comparison.probe) {
+      const output::Series strain = probes.series(probe.name, "plastic_strain");
+      if (!strain.empty()) histories.plastic_strain = strain;
+    }
+  }
+  return output::tube_metrics(histories);
+}
+
+}  // namespace
+
+output::NamedNumbers compare(const scene::Scene& scene, const Probes& probes) {
+  if (scene.comparison.kind == "rigid_cylinder") return rigid_cylinder(scene, probes);
+  if (scene.comparison.kind == "tube") return tube(scene, probes);
+  return {};
+}
+
+std::string comparison_table(const scene::Scene& scene, const output::NamedNumbers& metrics) {
+  if (metrics.empty() || scene.comparison.reference.empty()) return "";
+  return output::format_comparison(metrics, output::read_reference_table(reference_path(scene)));
+}
+
+}  // namespace undex::app

@@ -1,0 +1,176 @@
+#include "app/run.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <limits>
+
+#include "app/comparison.hpp"
+#include "app/probes.hpp"
+#include "app/progress.hpp"
+#include "app/simulation.hpp"
+#include "app/snapshots.hpp"
+#include "core/errors.hpp"
+#include "output/files.hpp"
+#include "output/history.hpp"
+#include "output/run_record.hpp"
+
+namespace undex::app {
+namespace {
+
+volatile std::sig_atomic_t signal_received = 0;
+void remember_signal(int number) { signal_received = number; }
+
+/// SIGINT and SIGTERM end the run at the next step instead of at once; a second one kills.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = remember_signal;
+  action.sa_flags = SA_RESETHAND;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+/// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
+class EnergyHistory {
+ public:
+  explicit EnergyHistory(const std::filesystem::path& folder)
+      : history_(folder / "energy.csv", {{"time", "s"},
+                                         {"kinetic", "J"},
+                                         {"internal", "J"},
+                                         {"dissipated", "J"},
+                                         {"structure_kinetic", "J"},
+                                         {"structure_elastic", "J"},
+                                         {"structure_plastic", "J"},
+                                         {"structure_viscous", "J"},
+                                         {"interface_work_given", "J"},
+                                         {"interface_work_received", "J"},
+                                         {"external", "J"},
+                                         {"total", "J"},
+                                         {"error", ""}}) {}
+  void sample(const Simulation& simulation) {
+    const EnergyBalance e = simulation.energy();
+    history_.append({simulation.time(), e.kinetic, e.internal, e.dissipated, e.structure_kinetic, e.elastic, e.plastic,
+                     e.viscous, e.work_given, e.work_received, e.external, e.total(), e.error()});
+  }
+  void flush() { history_.flush(); }
+
+ private:
+  output::History history_;
+};
+
+output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options, const Simulation& simulation,
+                            double wall_seconds) {
+  output::RunRecord record;
+  record.scene = scene.name;
+  record.program = options.program;
+  record.time_s = simulation.time();
+  record.steps = simulation.steps();
+  record.wall_time_s = wall_seconds;
+  record.cpu_time_s = output::cpu_time();
+  record.threads = omp_get_max_threads();
+  if (const sph::Fluid* fluid = simulation.fluid()) {
+    record.particles = std::int64_t(fluid->particle_count());
+    record.wall_particles = std::int64_t(fluid->wall_particle_count());
+    record.particle_updates = record.particles * record.steps;
+    record.neighbour_interactions = fluid->neighbour_interactions();
+  }
+  if (simulation.structure()) record.cells = std::int64_t(simulation.structure()->cell_count());
+  record.peak_memory_bytes = output::peak_memory_bytes();
+  record.mass_error = simulation.mass_error();
+  record.momentum_error = simulation.momentum_error();
+  record.energy_error = simulation.energy().error();
+  record.interface_energy_error = simulation.interface_energy_error();
+  record.passes = simulation.passes();
+  return record;
+}
+
+void print_cost(const output::RunRecord& record) {
+  std::printf("%s: %s at %.6g us after %lld steps, %.1f s of wall time, %.1f s of CPU time, %.0f MB\n", record.scene.c_str(),
+              record.status.c_str(), record.time_s * 1e6, static_cast<long long>(record.steps), record.wall_time_s,
+              record.cpu_time_s, record.peak_memory_bytes / 1e6);
+  if (record.particles > 0)
+    std::printf("%lld particles, %.4g particle updates, %.3f million per second and core, %.0f bytes per particle\n",
+                static_cast<long long>(record.particles), double(record.particle_updates),
+                record.particle_updates / std::max(record.cpu_time_s, 1e-9) * 1e-6,
+                double(record.peak_memory_bytes) / double(record.particles));
+  std::printf("energy error %.2e, mass error %.1e", record.energy_error, record.mass_error);
+  if (record.momentum_error == record.momentum_error) std::printf(", momentum error %.1e", record.momentum_error);
+  if (record.interface_energy_error) std::printf(", interface energy error %.2e", *record.interface_energy_error);
+  std::printf("\n");
+}
+
+}  // namespace
+
+int run(const scene::Scene& given, const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  scene::Scene scene = given;
+  if (options.threads > 0) scene.fluid.numerics.threads = options.threads;
+  const std::filesystem::path& folder = options.output;
+  output::write_text_atomically(folder / "scene.toml", options.scene_text);
+  output::write_text_atomically(folder / "resolved.toml", scene::to_toml(scene));
+
+  Simulation simulation(scene);
+  Probes probes(scene, simulation, folder);
+  EnergyHistory energy(folder);
+  Snapshots snapshots(scene, folder);
+  Progress progress(simulation.time(), scene.end_time, options.verbosity);
+  catch_signals();
+
+  const auto finish = [&](const std::string& status, const std::string& message) {
+    progress.finish(simulation);
+    probes.flush();
+    energy.flush();
+    output::RunRecord record = record_of(scene, options, simulation,
+                                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    record.status = status;
+    record.message = message;
+    record.metrics = compare(scene, probes);
+    output::write_summary(folder / "summary.json", record);
+    if (options.verbosity >= 0) {
+      print_cost(record);
+      std::printf("%s", comparison_table(scene, record.metrics).c_str());
+    }
+  };
+
+  const auto sample = [&] {
+    probes.sample(simulation);
+    energy.sample(simulation);
+  };
+  double next_history = 0, next_snapshot = snapshots.next_after(-1.0);
+  const auto observe = [&] {
+    const double now = simulation.time() * (1 + 1e-12);
+    if (now >= next_history || now >= scene.end_time) {
+      sample();
+      const double interval = scene.output.history_interval;
+      next_history = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
+    }
+    if (now >= next_snapshot) {
+      snapshots.write(simulation);
+      next_snapshot = snapshots.next_after(simulation.time());
+    }
+  };
+
+  try {
+    observe();
+    while (simulation.time() < scene.end_time * (1 - 1e-12)) {
+      simulation.advance(std::min(scene.end_time, next_snapshot));
+      observe();
+      progress.report(simulation);
+      if (signal_received != 0) {
+        finish("interrupted", signal_received == SIGINT ? "SIGINT" : "SIGTERM");
+        return 128 + signal_received;
+      }
+    }
+  } catch (const NumericalStop& stop) {
+    finish("stopped", stop.what());
+    throw;
+  }
+  finish("done", "");
+  return exit_done;
+}
+
+}  // namespace undex::app

@@ -1,0 +1,144 @@
+#include "app/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/errors.hpp"
+
+namespace undex::app {
+
+Simulation::Simulation(const scene::Scene& scene) {
+  std::vector<Finding> findings;
+  const auto attempt = [&](auto build) {
+    try {
+      build();
+    } catch (const std::invalid_argument& mistake) {
+      findings.push_back({{}, mistake.what()});
+    }
+  };
+  if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
+  if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
+  if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
+    attempt([&] { coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *structure_, scene.coupling); });
+  if (!findings.empty()) throw SceneError(scene.file.string(), findings);
+
+  bool planes = false;
+  for (int a = 0; a < 3; ++a)
+    if (scene.fluid.symmetry.axis[a]) {
+      copies_ *= 2;
+      planes = true;
+    }
+  const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty());
+  closed_ = !planes && scene.fluid.walls.empty() && !supports;
+  if (fluid_) {
+    start_mass_ = fluid_->ledger().mass;
+    start_momentum_ += fluid_->ledger().momentum;
+  }
+  if (structure_) start_momentum_ += structure_->momentum();
+  const EnergyBalance start = energy();
+  start_energy_ = start.total();
+  energy_scale_ = std::abs(start_energy_);
+}
+
+double Simulation::time() const { return fluid_ ? fluid_->time() : structure_->time(); }
+long Simulation::steps() const { return fluid_ ? fluid_->steps() : structure_->steps(); }
+
+void Simulation::advance(double end) {
+  char text[200];
+  if (coupler_) {
+    const coupling::Coupler::Window window = coupler_->advance(end);
+    last_step_ = window.step;
+    std::snprintf(text, sizeof text, "%s (%s) x%ld, structure x%ld", window.limit.criterion.c_str(),
+                  window.limit.body.c_str(), window.fluid_steps, window.structure_steps);
+  } else if (fluid_) {
+    const sph::StepLimit limit = fluid_->step_limit();
+    const double left = end - fluid_->time();
+    // The last few steps before `end` share what is left, so that none is tiny.
+    last_step_ = left < 3.0 * limit.step ? left / std::ceil(left / limit.step - 1e-9) : limit.step;
+    fluid_->step(last_step_);
+    std::snprintf(text, sizeof text, "%s (%s, particle %u)", limit.criterion.c_str(), limit.body.c_str(), limit.particle);
+  } else {
+    last_step_ = std::min(structure_->stable_step(), end - structure_->time());
+    const auto timer = timers_.measure("structure");
+    structure_->advance(structure_->time() + last_step_, {});
+    std::snprintf(text, sizeof text, "element");
+  }
+  if (fluid_ && structure_ && !coupler_) structure_->advance(fluid_->time(), {});
+  last_text_ = text;
+}
+
+std::string Simulation::last_step() const { return last_text_; }
+
+EnergyBalance Simulation::energy() const {
+  EnergyBalance e;
+  double external = 0;
+  if (fluid_) {
+    const sph::Ledger l = fluid_->ledger();
+    e.kinetic = copies_ * l.kinetic;
+    e.internal = copies_ * l.internal;
+    e.dissipated = copies_ * l.dissipated;
+    e.work_given = copies_ * l.wall_work;
+  }
+  if (structure_) {
+    const fem::Energies s = structure_->energies();
+    e.structure_kinetic = copies_ * s.kinetic;
+    e.elastic = copies_ * s.elastic;
+    e.plastic = copies_ * s.plastic;
+    e.viscous = copies_ * s.viscous;
+    external = copies_ * s.external;
+  }
+  if (coupler_)
+    e.work_received = external;
+  else
+    e.external = external;
+  e.start = start_energy_;
+  e.scale = std::max({energy_scale_, std::abs(e.external), e.kinetic + e.structure_kinetic});
+  return e;
+}
+
+double Simulation::mass_error() const {
+  return fluid_ && start_mass_ > 0 ? std::abs(fluid_->ledger().mass / start_mass_ - 1.0) : 0.0;
+}
+
+double Simulation::momentum_error() const {
+  if (!closed_) return std::numeric_limits<double>::quiet_NaN();
+  Vec3 momentum = Vec3::Zero();
+  double kinetic = 0, mass = 0;
+  if (fluid_) {
+    const sph::Ledger l = fluid_->ledger();
+    momentum += l.momentum;
+    kinetic += l.kinetic;
+    mass += l.mass;
+  }
+  if (structure_) {
+    momentum += structure_->momentum();
+    kinetic += structure_->energies().kinetic;
+    mass += structure_->total_mass();
+  }
+  const double scale = std::sqrt(2.0 * kinetic * mass);  // momentum if all of it went one way
+  return scale > 0 ? (momentum - start_momentum_).norm() / scale : 0.0;
+}
+
+std::optional<double> Simulation::interface_energy_error() const {
+  if (!coupler_) return std::nullopt;
+  const coupling::InterfaceLedger l = coupler_->ledger();
+  const double scale = std::max(std::abs(l.work_given), std::abs(l.work_received));
+  return scale > 0 ? (l.work_given - l.work_received) / scale : 0.0;
+}
+
+double Simulation::maximum_pressure() const { return fluid_ ? fluid_->maximum_pressure() : 0.0; }
+
+output::NamedNumbers Simulation::passes() const {
+  output::NamedNumbers all;
+  const auto add = [&](const PassTimers& timers) {
+    for (const auto& pass : timers.seconds()) all.push_back(pass);
+  };
+  if (fluid_) add(fluid_->timers());
+  if (coupler_) add(coupler_->timers());
+  add(timers_);
+  return all;
+}
+
+}  // namespace undex::app

@@ -1,0 +1,78 @@
+#include "coupling/coupler.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "sph_fluid/lattice.hpp"
+
+namespace undex::coupling {
+
+Coupler::Coupler(sph::Fluid& fluid, fem::Structure& structure, const Settings& settings)
+    : fluid_(fluid),
+      structure_(structure),
+      settings_(settings),
+      wall_(structure.wet_surface(), fluid.settings().lattice.spacing,
+            sph::kernel_support(fluid.settings().numerics.kernel) *
+                sph::smoothing_length(fluid.settings(), fluid.settings().lattice.spacing),
+            fluid.settings().symmetry.axis),
+      wall_index_(fluid.add_moving_wall(wall_.particles(settings.free_slip))),
+      predicted_position_(structure.wet_surface().nodes.size()),
+      predicted_velocity_(predicted_position_.size()),
+      nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
+  show_wall(0.0);
+}
+
+/// The wall `ahead` [s] after the structure's present state, at its present acceleration.
+void Coupler::show_wall(double ahead) {
+  const auto timer = timers_.measure("coupling");
+  const auto x = structure_.wet_positions(), v = structure_.wet_velocities(), a = structure_.wet_accelerations();
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    predicted_position_[n] = x[n] + ahead * (v[n] + 0.5 * ahead * a[n]);
+    predicted_velocity_[n] = v[n] + ahead * a[n];
+  }
+  wall_.move(predicted_position_, predicted_velocity_, fluid_.moving_wall(wall_index_));
+}
+
+Coupler::Window Coupler::advance(double end) {
+  Window window;
+  const double start = structure_.time();
+  const double patience = settings_.window * structure_.stable_step();
+  const long structure_steps = structure_.steps();
+  do {
+    window.limit = fluid_.step_limit();
+    const double left = end - fluid_.time();
+    const double within = start + patience - fluid_.time();
+    double step = std::min(window.limit.step, left);
+    // Several fluid steps in one of the structure's: divide what is left of it evenly.
+    if (within > step) step = within / std::ceil(within / step - 1e-9);
+    window.step = std::min(step, left);
+    show_wall(fluid_.time() + window.step - start);
+    fluid_.step(window.step);
+    ++window.fluid_steps;
+  } while (fluid_.time() < std::min(end, start + patience) * (1 - 1e-12));
+  window.held_by_structure = window.fluid_steps > 1;
+
+  sph::MovingWall& wall = fluid_.moving_wall(wall_index_);
+  {
+    const auto timer = timers_.measure("coupling");
+    ledger_.impulse_given = std::accumulate(wall.impulse.begin(), wall.impulse.end(), ledger_.impulse_given);
+    std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
+    wall_.hand_over(wall, nodal_impulse_);
+    ledger_.impulse_received = std::accumulate(nodal_impulse_.begin(), nodal_impulse_.end(), ledger_.impulse_received);
+  }
+  {
+    const auto timer = timers_.measure("structure");
+    structure_.advance(fluid_.time(), nodal_impulse_);
+  }
+  window.structure_steps = structure_.steps() - structure_steps;
+  return window;
+}
+
+InterfaceLedger Coupler::ledger() const {
+  InterfaceLedger ledger = ledger_;
+  ledger.work_given = fluid_.ledger().wall_work;
+  ledger.work_received = structure_.energies().external;
+  return ledger;
+}
+
+}  // namespace undex::coupling

@@ -1,0 +1,59 @@
+// Water and structure advanced together, window by window:
+//   predict the wall -> the water sees it as a moving wall -> the water advances and keeps the impulse that the wall
+//   received -> the structure receives exactly that impulse over its own steps -> the ledger books the exchange.
+// A window is one fluid step over several structure steps, or several fluid steps over one of the structure's, whichever
+// their stable steps ask. The coupler owns the step; each solver only says how long a step it can take.
+#pragma once
+
+#include <string>
+
+#include "core/timers.hpp"
+#include "coupling/settings.hpp"
+#include "coupling/wet_wall.hpp"
+#include "fem_structure/structure.hpp"
+#include "sph_fluid/fluid.hpp"
+
+namespace undex::coupling {
+
+/// What has crossed the interface since the start.
+struct InterfaceLedger {
+  Vec3 impulse_given = Vec3::Zero();     ///< by the fluid, summed over wall particles [N s]
+  Vec3 impulse_received = Vec3::Zero();  ///< by the structure's nodes [N s]
+  double work_given = 0;                 ///< by the fluid on the wall as it saw it move [J]
+  double work_received = 0;              ///< by the structure [J]
+};
+
+class Coupler {
+ public:
+  /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
+  Coupler(sph::Fluid& fluid, fem::Structure& structure, const Settings& settings);
+
+  struct Window {
+    double step = 0;            ///< last fluid step [s]
+    sph::StepLimit limit;       ///< what the fluid allowed
+    bool held_by_structure = false;  ///< the window was cut to the structure's step
+    long fluid_steps = 0, structure_steps = 0;
+  };
+  /// One window, not beyond time `end` [s].
+  Window advance(double end);
+
+  InterfaceLedger ledger() const;
+  const WetWall& wall() const { return wall_; }
+  /// Where a foot on the reference surface is now [m].
+  Vec3 position_of(const WetWall::Foot& foot) const { return wall_.position_of(foot, structure_.wet_positions()); }
+  const PassTimers& timers() const { return timers_; }
+
+ private:
+  void show_wall(double ahead);
+
+  sph::Fluid& fluid_;
+  fem::Structure& structure_;
+  Settings settings_;
+  WetWall wall_;
+  int wall_index_;
+  PassTimers timers_;
+  InterfaceLedger ledger_;
+  std::vector<Vec3> predicted_position_, predicted_velocity_, nodal_impulse_;
+};
+
+}  // namespace undex::coupling

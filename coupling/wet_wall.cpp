@@ -1,0 +1,119 @@
+#include "coupling/wet_wall.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace undex::coupling {
+namespace {
+
+std::array<double, 4> shape(double u, double v) {
+  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+}
+
+Vec3 blend(const std::array<int, 4>& face, const std::array<double, 4>& weight, std::span<const Vec3> nodal) {
+  return weight[0] * nodal[face[0]] + weight[1] * nodal[face[1]] + weight[2] * nodal[face[2]] + weight[3] * nodal[face[3]];
+}
+
+}  // namespace
+
+WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const std::array<bool, 3>& symmetry)
+    : surface_(surface), symmetry_(symmetry), in_plane_(surface.nodes.size(), {false, false, false}) {
+  Bounds box;
+  for (const Vec3& x : surface.nodes) box.include(x);
+  const double tolerance = 1e-9 * (box.high - box.low).norm();
+  for (std::size_t n = 0; n < surface.nodes.size(); ++n)
+    for (int a = 0; a < 3; ++a) in_plane_[n][a] = symmetry[a] && std::abs(surface.nodes[n][a]) <= tolerance;
+
+  layers_ = std::size_t(std::max(3.0, std::ceil(depth / spacing - 1e-9)));
+  const std::vector<Vec3> normal = normals(surface.nodes);
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const std::array<int, 4>& face = surface.faces[f];
+    const auto edge = [&](int a, int b) { return (surface.nodes[face[a]] - surface.nodes[face[b]]).norm(); };
+    const int along_u = std::max(1, int(std::lround(0.5 * (edge(0, 1) + edge(3, 2)) / spacing)));
+    const int along_v = std::max(1, int(std::lround(0.5 * (edge(0, 3) + edge(1, 2)) / spacing)));
+    for (std::size_t layer = 0; layer < layers_; ++layer) {
+      const double d = (layer + 0.5) * spacing;
+      std::array<Vec3, 4> corner;
+      for (int c = 0; c < 4; ++c) corner[c] = surface.nodes[face[c]] + d * normal[face[c]];
+      for (int j = 0; j < along_v; ++j)
+        for (int i = 0; i < along_u; ++i) {
+          const double u = (i + 0.5) / along_u, v = (j + 0.5) / along_v;
+          const Vec3 du = (1 - v) * (corner[1] - corner[0]) + v * (corner[2] - corner[3]);
+          const Vec3 dv = (1 - u) * (corner[3] - corner[0]) + u * (corner[2] - corner[1]);
+          points_.push_back({int(f), d, shape(u, v)});
+          volume_.push_back(du.cross(dv).norm() / (along_u * along_v) * spacing);
+        }
+    }
+  }
+}
+
+std::vector<Vec3> WetWall::normals(std::span<const Vec3> position) const {
+  std::vector<Vec3> normal(position.size(), Vec3::Zero());
+  for (const std::array<int, 4>& face : surface_.faces) {
+    // Half the product of the diagonals: the face's area vector.
+    const Vec3 area = 0.5 * (position[face[2]] - position[face[0]]).cross(position[face[3]] - position[face[1]]);
+    for (const int n : face) normal[n] += area;
+  }
+  for (std::size_t n = 0; n < normal.size(); ++n) {
+    for (int a = 0; a < 3; ++a)
+      if (in_plane_[n][a]) normal[n][a] = 0.0;
+    normal[n].normalize();
+  }
+  return normal;
+}
+
+sph::MovingWall WetWall::particles(bool free_slip) const {
+  sph::MovingWall wall;
+  wall.free_slip = free_slip;
+  wall.volume = volume_;
+  for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse})
+    field->assign(points_.size(), Vec3::Zero());
+  const std::vector<Vec3> rest(surface_.nodes.size(), Vec3::Zero());
+  move(surface_.nodes, rest, wall);
+  return wall;
+}
+
+void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const {
+  const std::vector<Vec3> normal = normals(position);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Point& point = points_[k];
+    const std::array<int, 4>& face = surface_.faces[point.face];
+    const Vec3 n = blend(face, point.weight, normal);
+    wall.position[k] = blend(face, point.weight, position) + point.depth * n;
+    wall.velocity[k] = blend(face, point.weight, velocity);
+    wall.normal[k] = n.normalized();
+  }
+}
+
+void WetWall::hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Point& point = points_[k];
+    for (int c = 0; c < 4; ++c) nodal_impulse[surface_.faces[point.face][c]] += point.weight[c] * wall.impulse[k];
+    wall.impulse[k].setZero();
+  }
+}
+
+WetWall::Foot WetWall::nearest(const Vec3& x) const {
+  Foot foot;
+  double best = 1e300;
+  constexpr int fine = 8;
+  for (std::size_t f = 0; f < surface_.faces.size(); ++f)
+    for (int j = 0; j <= fine; ++j)
+      for (int i = 0; i <= fine; ++i) {
+        const std::array<double, 4> weight = shape(double(i) / fine, double(j) / fine);
+        const double distance = (blend(surface_.faces[f], weight, surface_.nodes) - x).norm();
+        if (distance < best) {
+          best = distance;
+          foot = {int(f), weight, distance};
+        }
+      }
+  return foot;
+}
+
+Vec3 WetWall::position_of(const Foot& foot, std::span<const Vec3> node_positions) const {
+  return blend(surface_.faces[foot.face], foot.weight, node_positions);
+}
+
+}  // namespace undex::coupling

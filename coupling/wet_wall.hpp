@@ -1,0 +1,60 @@
+// The wet surface of a structure, lined with dummy particles for the fluid. Particles ride on the bilinear shape functions
+// of the faces, at fixed depths along the surface normal, so that one set of weights serves both ways: motion maps
+// consistently (a rigid motion arrives as itself) and force conservatively (the sum of forces and their virtual work
+// arrive whole).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/surface.hpp"
+#include "sph_fluid/fluid.hpp"
+
+namespace undex::coupling {
+
+class WetWall {
+ public:
+  /// `spacing` [m] between the dummy particles along the surface and between layers; `depth` [m] to be filled behind it.
+  /// Nodes on a symmetry plane (through the origin, normal to a marked axis) keep their normals in that plane.
+  WetWall(const WetSurface& surface, double spacing, double depth, const std::array<bool, 3>& symmetry);
+
+  std::size_t particle_count() const { return points_.size(); }
+  std::size_t layer_count() const { return layers_; }
+
+  /// Dummy particles at the surface's reference position, at rest.
+  sph::MovingWall particles(bool free_slip) const;
+
+  /// Places `wall` where the surface's nodes are. Velocity is that of the surface point below the particle: beneath a
+  /// rotating surface the tangential part lacks depth times spin, the normal part (all that free slip sees) is exact.
+  void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const;
+
+  /// Adds the wall's impulses [N s] to the nodes by the same weights, and sets the wall's to zero.
+  void hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const;
+
+  /// Point of the reference surface nearest to x among the particles' feet: face and weights, for probes.
+  struct Foot {
+    int face = -1;
+    std::array<double, 4> weight{};
+    double distance = 0;   ///< [m]
+  };
+  Foot nearest(const Vec3& x) const;
+  Vec3 position_of(const Foot& foot, std::span<const Vec3> node_positions) const;
+
+ private:
+  struct Point {
+    int face;
+    double depth;                     // [m] behind the surface
+    std::array<double, 4> weight;     // shape functions
+  };
+  std::vector<Vec3> normals(std::span<const Vec3> position) const;
+
+  WetSurface surface_;
+  std::array<bool, 3> symmetry_;
+  std::vector<std::array<bool, 3>> in_plane_;   // per node: normal component held at zero
+  std::vector<Point> points_;
+  std::vector<double> volume_;                  // [m^3]
+  std::size_t layers_ = 0;
+};
+
+}  // namespace undex::coupling

@@ -1,0 +1,408 @@
+#include "fem_structure/structure.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+#include "fem_structure/elements.hpp"
+#include "fem_structure/grid.hpp"
+#include "fem_structure/mistakes.hpp"
+
+namespace undex::fem {
+namespace {
+
+constexpr std::size_t worth_threads = 512;  // nodes
+
+std::string listed(const Grid& grid) {
+  std::string names;
+  for (const auto& [name, quads] : grid.faces) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "none" : names;
+}
+
+void check(const Settings& settings, const Grid& grid) {
+  Mistakes mistakes("structure '" + settings.name + "'");
+  const auto known = [&](const std::string& face, const char* where) {
+    mistakes.require(grid.faces.count(face) > 0, where, " names the face '", face, "'; the faces of this mesh are ",
+                     listed(grid));
+  };
+  for (const Support& support : settings.supports) known(support.face, "a support");
+  for (const std::string& face : settings.wet_faces) known(face, "wet_faces");
+  for (const PressureLoad& load : settings.loads) {
+    known(load.face, "a pressure load");
+    mistakes.require(!load.time.empty() && load.time.size() == load.pressure.size(), "the pressure load on '",
+                     load.face, "' has ", load.time.size(), " times and ", load.pressure.size(),
+                     " pressures; give at least one, and as many of each");
+    mistakes.require(std::adjacent_find(load.time.begin(), load.time.end(), std::greater_equal<>()) == load.time.end(),
+                     "the times of the pressure load on '", load.face, "' must increase");
+  }
+  mistakes.require(settings.courant > 0.0 && settings.courant <= 1.0, "courant = ", settings.courant,
+                   "; give a share of the stable step in (0, 1], 0.8 is usual");
+  mistakes.require(settings.linear_viscosity >= 0.0 && settings.quadratic_viscosity >= 0.0, "bulk viscosities ",
+                   settings.linear_viscosity, " and ", settings.quadratic_viscosity,
+                   " must not be negative; 0.06 and 1.2 are usual, 0 switches one off");
+  const materials::Solid& material = settings.material;
+  mistakes.require(material.rho0 > 0.0 && material.shear_modulus > 0.0, "material '", material.name,
+                   "' has density ", material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus,
+                   " Pa; both must be positive");
+  mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ",
+                   material.heat_capacity, " J/kg/K; it must be positive");
+  mistakes.require(settings.initial_velocity.allFinite(), "the initial velocity is not finite");
+
+  double extent = 0.0;
+  for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
+  for (int axis : settings.symmetry_axes) {
+    if (axis < 0 || axis > 2) {
+      mistakes.require(false, "symmetry axis ", axis, " does not exist; give 0, 1 or 2 (x, y, z)");
+      continue;
+    }
+    double lowest = 0.0;
+    for (const Vec3& x : grid.nodes) lowest = std::min(lowest, x[axis]);
+    mistakes.require(lowest >= -1e-9 * extent, "the mesh reaches ", lowest, " m along axis ", axis,
+                     ", beyond the symmetry plane at 0; mesh only the part at and above it");
+  }
+  mistakes.throw_if_any();
+}
+
+double interpolated(const PressureLoad& load, double time) {
+  if (time <= load.time.front()) return load.pressure.front();
+  if (time >= load.time.back()) return load.pressure.back();
+  const std::size_t i = std::upper_bound(load.time.begin(), load.time.end(), time) - load.time.begin();
+  const double share = (time - load.time[i - 1]) / (load.time[i] - load.time[i - 1]);
+  return load.pressure[i - 1] + share * (load.pressure[i] - load.pressure[i - 1]);
+}
+
+/// Nodal forces of a unit pressure on a bilinear face, exact: its normal is the cross product of the two tangents,
+/// pointing into the structure, and 2x2 Gauss points integrate it times a shape function without error.
+std::array<Vec3, 4> pressed(const std::array<Vec3, 4>& x) {
+  const double near = 0.5 - 0.5 / std::sqrt(3.0);
+  std::array<Vec3, 4> force;
+  force.fill(Vec3::Zero());
+  for (double v : {near, 1.0 - near})
+    for (double u : {near, 1.0 - near}) {
+      const Vec3 along_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
+      const Vec3 along_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
+      const Vec3 area = 0.25 * along_u.cross(along_v);
+      force[0] += (1 - u) * (1 - v) * area;
+      force[1] += u * (1 - v) * area;
+      force[2] += u * v * area;
+      force[3] += (1 - u) * v * area;
+    }
+  return force;
+}
+
+std::string written(const Vec3& x) {
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ") m";
+  return text.str();
+}
+
+}  // namespace
+
+struct Structure::Implementation {
+  Settings settings;
+  Mesher mesher;
+  const Grid& grid;
+  Elements elements;
+
+  // State, per node.
+  std::vector<Vec3> position, velocity;
+  double time = 0.0, last_step = 0.0;
+  long steps = 0;
+  double external_work = 0.0, first_critical_step = 0.0;
+
+  // What follows from the state, and scratch, per node.
+  std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
+  std::vector<Vec3> inverse_mass;  ///< zero where a component is held
+
+  WetSurface wet;
+  std::vector<int> wet_nodes;
+  std::vector<Vec3> wet_position, wet_velocity, wet_acceleration;
+
+  explicit Implementation(const Settings& given)
+      : settings(given),
+        mesher(settings),
+        grid((check(settings, mesher.grid()), mesher.grid())),
+        elements(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity) {
+    const std::size_t n = grid.nodes.size();
+    position = grid.nodes;
+    inverse_mass.resize(n);
+    for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements.nodal_mass()[i]);
+    double extent = 0.0;
+    for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
+    for (int axis : settings.symmetry_axes)
+      for (std::size_t i = 0; i < n; ++i)
+        if (std::abs(grid.nodes[i][axis]) <= 1e-9 * extent) inverse_mass[i][axis] = 0.0;
+    for (const Support& support : settings.supports)
+      for (const auto& quad : grid.faces.at(support.face))
+        for (int node : quad)
+          for (int d = 0; d < 3; ++d)
+            if (support.fixed[d]) inverse_mass[node][d] = 0.0;
+    velocity.assign(n, settings.initial_velocity);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int d = 0; d < 3; ++d)
+        if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
+    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force})
+      field->assign(n, Vec3::Zero());
+    take_wet_surface();
+    first_critical_step = elements.critical_step();
+    find_load_force();
+    find_acceleration();
+    show_wet_motion();
+  }
+
+  void take_wet_surface() {
+    std::vector<std::string> names = settings.wet_faces;
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    std::vector<int> number(grid.nodes.size(), -1);
+    for (const std::string& name : names)
+      for (const auto& quad : grid.faces.at(name)) {
+        std::array<int, 4> face;
+        for (int v = 0; v < 4; ++v) {
+          int& wet_index = number[quad[v]];
+          if (wet_index < 0) {
+            wet_index = static_cast<int>(wet_nodes.size());
+            wet_nodes.push_back(quad[v]);
+            wet.nodes.push_back(grid.nodes[quad[v]]);
+          }
+          face[v] = wet_index;
+        }
+        wet.faces.push_back(face);
+      }
+    for (auto* field : {&wet_position, &wet_velocity, &wet_acceleration}) field->resize(wet_nodes.size());
+  }
+
+  void show_wet_motion() {
+    for (std::size_t i = 0; i < wet_nodes.size(); ++i) {
+      wet_position[i] = position[wet_nodes[i]];
+      wet_velocity[i] = velocity[wet_nodes[i]];
+      wet_acceleration[i] = acceleration[wet_nodes[i]];
+    }
+  }
+
+  void find_load_force() {
+    if (settings.loads.empty()) return;
+    std::fill(load_force.begin(), load_force.end(), Vec3::Zero());
+    for (const PressureLoad& load : settings.loads) {
+      const double pressure = interpolated(load, time);
+      for (const auto& quad : grid.faces.at(load.face)) {
+        const auto force = pressed({position[quad[0]], position[quad[1]], position[quad[2]], position[quad[3]]});
+        for (int v = 0; v < 4; ++v) load_force[quad[v]] += pressure * force[v];
+      }
+    }
+  }
+
+  void find_acceleration() {
+    const long n = static_cast<long>(position.size());
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i)
+      acceleration[i] = (load_force[i] + impulse_force[i] - internal_force[i]).cwiseProduct(inverse_mass[i]);
+  }
+
+  double load_work() const {
+    double work = 0.0;
+    if (!settings.loads.empty())
+      for (std::size_t i = 0; i < load_force.size(); ++i) work += 0.5 * load_force[i].dot(increment[i]);
+    return work;
+  }
+
+  /// One step of central differences: kick, drift, new forces, kick. The two half kicks with their own forces make it
+  /// exact for a step that varies: a(t) acts over half of either neighbouring step.
+  void step(double dt) {
+    const long n = static_cast<long>(position.size());
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i) {
+      velocity[i] += 0.5 * dt * acceleration[i];
+      increment[i] = dt * velocity[i];
+      position[i] += increment[i];
+    }
+    external_work += load_work();
+    const long failed = elements.advance(position, increment, dt, internal_force);
+    time += dt;
+    ++steps;
+    last_step = dt;
+    if (failed >= 0) stop(failed, "inverted, or holds a value that is not finite");
+    find_load_force();
+    external_work += load_work();
+    for (int node : wet_nodes) external_work += impulse_force[node].dot(increment[node]);
+    find_acceleration();
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
+  }
+
+  Vec3 center(std::size_t cell) const {
+    Vec3 x = Vec3::Zero();
+    for (int node : grid.cells[cell]) x += grid.nodes[node] / 8.0;
+    return x;
+  }
+
+  std::string owner() const {
+    const std::size_t cell = elements.critical_cell();
+    return "cell " + std::to_string(cell) + " of '" + settings.name + "', reference position " + written(center(cell));
+  }
+
+  [[noreturn]] void stop(std::size_t cell, const std::string& what) const {
+    std::ostringstream text;
+    text << "structure '" << settings.name << "', step " << steps << ", time " << time << " s: cell " << cell
+         << ", reference position " << written(center(cell)) << ", now near " << written(position[grid.cells[cell][0]])
+         << ", " << what << "; the step of " << last_step << " s was set by " << owner()
+         << "; refine the mesh there, or lower courant (" << settings.courant << ")";
+    throw NumericalStop(text.str());
+  }
+
+  double stable_step() const { return settings.courant * elements.critical_step(); }
+
+  void advance(double t_end, std::span<const Vec3> impulse) {
+    if (!impulse.empty() && impulse.size() != wet_nodes.size())
+      throw std::invalid_argument("structure '" + settings.name + "': " + std::to_string(impulse.size()) +
+                                  " impulses for " + std::to_string(wet_nodes.size()) +
+                                  " wet nodes; give one per node of wet_surface(), or none");
+    const double interval = t_end - time;
+    if (!(interval > 0.0) || !std::isfinite(interval)) {
+      std::ostringstream text;
+      text << "structure '" << settings.name << "': cannot advance from " << time << " s to " << t_end
+           << " s; give a later time";
+      throw std::invalid_argument(text.str());
+    }
+    for (std::size_t i = 0; i < wet_nodes.size(); ++i)
+      impulse_force[wet_nodes[i]] = impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(impulse[i] / interval);
+    find_acceleration();
+    for (;;) {
+      const double longest = stable_step();
+      if (!(longest > 1e-4 * settings.courant * first_critical_step))
+        stop(elements.critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one");
+      const double left = t_end - time;
+      const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-12)));
+      step(left / count);
+      if (count == 1.0) break;
+    }
+    time = t_end;
+    show_wet_motion();
+  }
+};
+
+Structure::Structure(const Settings& settings) : self_(std::make_unique<Implementation>(settings)) {}
+Structure::~Structure() = default;
+Structure::Structure(Structure&&) noexcept = default;
+Structure& Structure::operator=(Structure&&) noexcept = default;
+
+std::size_t Structure::cell_count() const { return self_->grid.cells.size(); }
+std::size_t Structure::node_count() const { return self_->grid.nodes.size(); }
+std::size_t Structure::memory_bytes() const {
+  const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
+  std::size_t bytes = self_->elements.memory_bytes() + 9 * nodes * sizeof(Vec3);
+  bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
+  return bytes + wet * (4 * sizeof(Vec3) + sizeof(int)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
+}
+double Structure::total_mass() const {
+  const auto& mass = self_->elements.nodal_mass();
+  return std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+double Structure::time() const { return self_->time; }
+long Structure::steps() const { return self_->steps; }
+
+const WetSurface& Structure::wet_surface() const { return self_->wet; }
+std::span<const Vec3> Structure::wet_positions() const { return self_->wet_position; }
+std::span<const Vec3> Structure::wet_velocities() const { return self_->wet_velocity; }
+std::span<const Vec3> Structure::wet_accelerations() const { return self_->wet_acceleration; }
+
+double Structure::stable_step() const { return self_->stable_step(); }
+std::string Structure::stable_step_owner() const { return self_->owner(); }
+void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
+
+Energies Structure::energies() const {
+  Energies energies;
+  const auto& mass = self_->elements.nodal_mass();
+  const double share = self_->last_step * self_->last_step / 8.0;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    energies.kinetic += 0.5 * mass[i] * self_->velocity[i].squaredNorm();
+    energies.staggering -= share * mass[i] * self_->acceleration[i].squaredNorm();
+  }
+  energies.elastic = self_->elements.elastic_energy();
+  energies.plastic = self_->elements.plastic_work();
+  energies.viscous = self_->elements.viscous_work();
+  energies.external = self_->external_work;
+  return energies;
+}
+
+Vec3 Structure::momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < node_count(); ++i) sum += self_->elements.nodal_mass()[i] * self_->velocity[i];
+  return sum;
+}
+
+Vec3 Structure::angular_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < node_count(); ++i)
+    sum += self_->elements.nodal_mass()[i] * self_->position[i].cross(self_->velocity[i]);
+  return sum;
+}
+
+namespace {
+
+double von_mises(const Mat3& stress) {
+  const Mat3 deviator = stress - stress.trace() / 3.0 * Mat3::Identity();
+  return std::sqrt(1.5 * deviator.squaredNorm());
+}
+
+}  // namespace
+
+FieldView Structure::fields() const {
+  const Elements& elements = self_->elements;
+  FieldView view;
+  view.position = self_->position;
+  view.velocity = self_->velocity;
+  view.displacement.resize(node_count());
+  for (std::size_t i = 0; i < node_count(); ++i) view.displacement[i] = self_->position[i] - self_->grid.nodes[i];
+  view.cells = self_->grid.cells;
+  for (auto* field : {&view.pressure, &view.von_mises, &view.plastic_strain, &view.temperature})
+    field->assign(cell_count(), 0.0);
+  for (std::size_t c = 0; c < cell_count(); ++c) {
+    view.pressure[c] = elements.pressure(c);
+    for (int q = 0; q < 8; ++q) {
+      view.von_mises[c] += von_mises(elements.stress(c, q)) / 8.0;
+      view.plastic_strain[c] += elements.plastic_strain(c, q) / 8.0;
+      view.temperature[c] += elements.temperature(c, q) / 8.0;
+    }
+  }
+  return view;
+}
+
+Structure::Probe Structure::locate(const Vec3& reference_position) const {
+  const auto inside = self_->mesher.containing_cell(reference_position);
+  const Place place = inside ? *inside : nearest_place(self_->grid, reference_position);
+  return {place.cell, place.unit, place.distance};
+}
+
+Structure::ProbeValues Structure::read(const Probe& probe) const {
+  ProbeValues values{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Zero(), 0.0, 0.0};
+  const auto& cell = self_->grid.cells.at(probe.cell);
+  const auto shape = shape_values(probe.unit);
+  for (int i = 0; i < 8; ++i) {
+    values.position += shape[i] * self_->position[cell[i]];
+    values.velocity += shape[i] * self_->velocity[cell[i]];
+    values.displacement += shape[i] * (self_->position[cell[i]] - self_->grid.nodes[cell[i]]);
+  }
+  // Quadrature values are interpolated between the points and held constant outside them: extrapolated ones overshoot.
+  const ReferenceCell& reference = self_->grid.reference;
+  for (int q = 0; q < 8; ++q) {
+    double share = 1.0;
+    for (int d = 0; d < 3; ++d) {
+      const double low = reference.point[0][d], high = reference.point[7][d];
+      const double t = std::clamp((probe.unit[d] - low) / (high - low), 0.0, 1.0);
+      share *= reference.point[q][d] > 0.5 ? t : 1.0 - t;
+    }
+    values.stress += share * self_->elements.stress(probe.cell, q);
+    values.plastic_strain += share * self_->elements.plastic_strain(probe.cell, q);
+    values.temperature += share * self_->elements.temperature(probe.cell, q);
+  }
+  return values;
+}
+
+}  // namespace undex::fem

@@ -1,0 +1,14 @@
+// Questions asked of any fluid law when a scene is set up.
+#include "materials/equation_of_state.hpp"
+
+namespace undex::materials {
+
+bool uses_energy(const FluidLaw& law) {
+  return std::visit([](const auto& l) { return l.uses_energy; }, law);
+}
+
+double density_at(const FluidLaw& law, double pressure, double energy) {
+  return std::visit([&](const auto& l) { return l.density_at(pressure, energy); }, law);
+}
+
+}  // namespace undex::materials

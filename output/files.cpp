@@ -1,0 +1,89 @@
+#include "output/files.hpp"
+
+#include <fcntl.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "core/errors.hpp"
+
+namespace undex::output {
+
+namespace {
+
+const char* remedy(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or choose another output folder with -o";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose an output folder that you may write to with -o";
+    case ENOENT:
+    case ENOTDIR:
+      return "the output folder does not exist: make it, or choose another with -o";
+    case EISDIR:
+      return "a folder has the name of this file: remove it or choose another output folder with -o";
+    case EMFILE:
+    case ENFILE:
+      return "too many files are open: raise the limit (ulimit -n)";
+    default:
+      return "choose another output folder with -o";
+  }
+}
+
+}  // namespace
+
+void throw_file_error(const std::string& action, const std::filesystem::path& path, int error_number) {
+  throw FileError("cannot " + action + " " + path.string() + ": " +
+                  (error_number != 0 ? std::strerror(error_number) : "unknown reason") + "; " + remedy(error_number));
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+  std::string name(1, '.');
+  name.append(path.filename().string()).append(1, '.').append(std::to_string(getpid())).append(".part");
+  return path.parent_path() / name;
+}
+
+void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    unlink(temporary.c_str());
+    throw_file_error("write", path, error);
+  }
+}
+
+void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path temporary = temporary_name(path);
+  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw_file_error("write", path, errno);
+  int error = 0;
+  for (std::size_t done = 0; done < text.size() && error == 0;) {
+    const ssize_t written = write(file, text.data() + done, text.size() - done);
+    if (written >= 0)
+      done += static_cast<std::size_t>(written);
+    else if (errno != EINTR)
+      error = errno;
+  }
+  if (error == 0 && fsync(file) != 0 && errno != EINVAL && errno != ENOSYS) error = errno;
+  if (close(file) != 0 && error == 0) error = errno;
+  if (error != 0) {
+    unlink(temporary.c_str());
+    throw_file_error("write", path, error);
+  }
+  put_in_place(temporary, path);
+}
+
+void require_space(const std::filesystem::path& path, double bytes) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  struct statvfs state {};
+  if (statvfs(folder.c_str(), &state) != 0) return;  // the write itself will say why
+  const double available = static_cast<double>(state.f_bavail) * static_cast<double>(state.f_frsize);
+  if (available < bytes) throw_file_error("write", path, ENOSPC);
+}
+
+}  // namespace undex::output

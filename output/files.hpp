@@ -1,0 +1,26 @@
+// Files that are either whole or absent, and failures that say what to do.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace undex::output {
+
+/// Throws FileError "cannot <action> <path>: <reason>; <remedy>" for the given errno value.
+[[noreturn]] void throw_file_error(const std::string& action, const std::filesystem::path& path, int error_number);
+
+/// Writes `text` beside `path`, then renames it there: a reader (or a kill) sees the old file or the new one, never a
+/// part. Throws FileError.
+void write_text_atomically(const std::filesystem::path& path, const std::string& text);
+
+/// Renames a finished temporary file to its place. Throws FileError.
+void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+/// The name under which `path` is written until it is finished (same folder, so that the rename is atomic).
+std::filesystem::path temporary_name(const std::filesystem::path& path);
+
+/// Throws FileError unless the file system that holds `path` has room for `bytes` more: a disk that fills in the middle
+/// of an HDF5 write would leave a damaged file behind.
+void require_space(const std::filesystem::path& path, double bytes);
+
+}  // namespace undex::output

@@ -1,0 +1,144 @@
+#include "output/hdf5_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "output/files.hpp"
+
+namespace undex::output::hdf5 {
+
+namespace {
+
+// HDF5 prints its error stack on stderr unless told otherwise; here the reason goes into the exception.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
+  if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+[[noreturn]] void throw_hdf5_error(const char* action, const std::filesystem::path& path) {
+  const int error = errno;
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &reason);
+  if (error != 0) throw_file_error(action, path, error);
+  throw FileError(std::string("cannot ") + action + " " + path.string() + ": " +
+                  (reason.empty() ? "HDF5 gives no reason" : reason) +
+                  "; if the file is damaged or of another program, remove it, else choose another output folder with -o");
+}
+
+// A viewer that has the file open must not stop the run, so files are not locked.
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(access, false, true);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  return access;
+}
+
+}  // namespace
+
+File File::create(const std::filesystem::path& path) {
+  silence();
+  errno = 0;
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()));
+  if (file < 0) throw_hdf5_error("write", path);
+  return File(path, std::move(file));
+}
+
+File File::open(const std::filesystem::path& path) {
+  silence();
+  errno = 0;
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, file_access()));
+  if (file < 0) throw_hdf5_error("open", path);
+  return File(path, std::move(file));
+}
+
+void File::fail(const char* action) const { throw_hdf5_error(action, path_); }
+
+Handle File::group(hid_t parent, const char* name) const {
+  errno = 0;
+  return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "write"));
+}
+
+Handle File::unnamed_group() const {
+  errno = 0;
+  return Handle(check(H5Gcreate_anon(file_, H5P_DEFAULT, H5P_DEFAULT), "write"));
+}
+
+void File::link(hid_t object, const std::string& name) const {
+  errno = 0;
+  check(H5Olink(object, file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "write");
+}
+
+void File::attribute(hid_t object, const char* name, double value) const {
+  errno = 0;
+  Handle space(H5Screate(H5S_SCALAR));
+  Handle attribute(check(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), "write"));
+  check(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), "write");
+}
+
+void File::attribute(hid_t object, const char* name, std::span<const std::int64_t> values) const {
+  errno = 0;
+  const hsize_t size = values.size();
+  Handle space(H5Screate_simple(1, &size, nullptr));
+  Handle attribute(check(H5Acreate2(object, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT), "write"));
+  check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()), "write");
+}
+
+void File::attribute(hid_t object, const char* name, const std::string& ascii) const {
+  errno = 0;
+  Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, ascii.size());
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  Handle space(H5Screate(H5S_SCALAR));
+  Handle attribute(check(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), "write"));
+  check(H5Awrite(attribute, type, ascii.data()), "write");
+}
+
+void File::write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows,
+                 std::size_t columns, std::size_t value_bytes) const {
+  errno = 0;
+  const hsize_t size[2] = {rows, columns};
+  const int rank = columns == 1 ? 1 : 2;
+  Handle space(H5Screate_simple(rank, size, nullptr));
+  Handle layout(H5Pcreate(H5P_DATASET_CREATE));
+  if (rows * columns * value_bytes > 4096) {  // small sets are smaller without chunks
+    const hsize_t chunk[2] = {std::min<hsize_t>(rows, (1u << 18) / (columns * value_bytes)), columns};
+    H5Pset_chunk(layout, rank, chunk);
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, 3);
+  }
+  Handle set(check(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), "write"));
+  if (rows > 0) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write");
+}
+
+void File::dataset(hid_t parent, const std::string& name, std::span<const float> values, std::size_t columns) const {
+  write(parent, name, H5T_NATIVE_FLOAT, values.data(), values.size() / columns, columns, sizeof(float));
+}
+
+void File::dataset(hid_t parent, const std::string& name, std::span<const std::int64_t> values) const {
+  write(parent, name, H5T_NATIVE_INT64, values.data(), values.size(), 1, sizeof(std::int64_t));
+}
+
+void File::dataset(hid_t parent, const std::string& name, std::span<const unsigned char> values) const {
+  write(parent, name, H5T_NATIVE_UCHAR, values.data(), values.size(), 1, 1);
+}
+
+void File::flush() const {
+  errno = 0;
+  check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write");
+}
+
+std::vector<float> to_float(std::span<const double> values, std::size_t first, std::size_t stride) {
+  std::vector<float> result;
+  result.reserve(values.size() / stride + 1);
+  constexpr double largest = std::numeric_limits<float>::max();
+  for (std::size_t i = first; i < values.size(); i += stride)
+    result.push_back(static_cast<float>(std::isfinite(values[i]) ? std::clamp(values[i], -largest, largest) : values[i]));
+  return result;
+}
+
+}  // namespace undex::output::hdf5

@@ -1,0 +1,73 @@
+// The little of HDF5 that the field writers need, with handles that close themselves and errors that throw.
+// Private to this folder: the HDF5 headers do not leave it.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undex::output::hdf5 {
+
+/// Owns one HDF5 identifier of any kind.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
+/// An open file. Reports failures as FileError with the path, HDF5's own innermost reason and a remedy.
+class File {
+ public:
+  static File create(const std::filesystem::path& path);  ///< empties an existing file
+  static File open(const std::filesystem::path& path);    ///< to read and write
+  /// Throws if `result` (of any HDF5 call on this file) tells of a failure; returns it otherwise.
+  template <class Result>
+  Result check(Result result, const char* action) const {
+    if (result < 0) fail(action);
+    return result;
+  }
+  Handle group(hid_t parent, const char* name) const;
+  /// A group without a name yet: a killed run leaves nothing visible of it. link() publishes it.
+  Handle unnamed_group() const;
+  void link(hid_t object, const std::string& name) const;
+
+  void attribute(hid_t object, const char* name, double value) const;
+  void attribute(hid_t object, const char* name, std::span<const std::int64_t> values) const;
+  void attribute(hid_t object, const char* name, const std::string& ascii) const;  ///< fixed length, as VTK wants it
+
+  /// Datasets of `values.size()/columns` rows; float32 with shuffle and gzip. columns = 1 gives a one-dimensional set.
+  void dataset(hid_t parent, const std::string& name, std::span<const float> values, std::size_t columns = 1) const;
+  void dataset(hid_t parent, const std::string& name, std::span<const std::int64_t> values) const;
+  void dataset(hid_t parent, const std::string& name, std::span<const unsigned char> values) const;
+
+  /// Puts everything on disk. The file closes itself at the end of its scope.
+  void flush() const;
+  operator hid_t() const { return file_; }
+
+ private:
+  File(std::filesystem::path path, Handle file) : path_(std::move(path)), file_(std::move(file)) {}
+  [[noreturn]] void fail(const char* action) const;
+  void write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows,
+             std::size_t columns, std::size_t value_bytes) const;
+
+  std::filesystem::path path_;
+  Handle file_;
+};
+
+/// Every `stride`-th value from `first` on, as float32. Values beyond float32's range become its largest.
+std::vector<float> to_float(std::span<const double> values, std::size_t first = 0, std::size_t stride = 1);
+
+}  // namespace undex::output::hdf5

@@ -1,0 +1,49 @@
+// What a run leaves in summary.json: what was computed, how well the ledgers close, what it cost, what came out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace undex::output {
+
+/// Named numbers in the order in which they are shown. NaN means "did not happen" and becomes null in JSON.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+struct RunRecord {
+  std::string scene;                          ///< its name
+  std::string status;                         ///< "done", or why it ended: "stopped", "interrupted", ...
+  std::string message;                        ///< the reason, where status is not "done"; left out when empty
+  double time_s = 0;                          ///< simulated time reached
+  std::int64_t steps = 0;
+  double wall_time_s = 0, cpu_time_s = 0;
+  int threads = 1;
+  std::int64_t particles = 0;                 ///< moving ones
+  std::int64_t wall_particles = 0;
+  std::int64_t cells = 0;                     ///< of the structure's mesh
+  std::int64_t particle_updates = 0;          ///< moving particles times steps
+  std::int64_t neighbour_interactions = 0;    ///< true neighbours, directed, over all steps
+  std::int64_t peak_memory_bytes = 0;
+  double mass_error = 0, momentum_error = 0, energy_error = 0;   ///< relative
+  std::optional<double> interface_energy_error;                  ///< coupled runs only
+  std::string program;                        ///< version text; left out when empty
+  NamedNumbers passes;                        ///< seconds per named pass
+  NamedNumbers metrics;                       ///< results of the scene's comparison
+};
+
+/// The record as JSON text, keys in the order above.
+std::string to_json(const RunRecord& record);
+
+/// Writes to_json() atomically. Throws FileError.
+void write_summary(const std::filesystem::path& path, const RunRecord& record);
+
+/// Largest resident memory of this process so far [bytes]; 0 where the system does not tell.
+std::int64_t peak_memory_bytes();
+
+/// CPU time of all threads of this process so far [s].
+double cpu_time();
+
+}  // namespace undex::output

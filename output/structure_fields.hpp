@@ -1,0 +1,40 @@
+// Structure fields as VTKHDF 1.0 unstructured grids of hexahedra: one file per snapshot and an index with the times
+// (structure.hdf.series), the form that ParaView 5.11 opens with true times; it refuses temporal VTKHDF.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/field.hpp"
+
+namespace undex::output {
+
+/// One state of the mesh. Spans are borrowed for the call.
+struct StructureSnapshot {
+  std::span<const Vec3> positions;             ///< present positions of the nodes [m]
+  std::span<const std::array<int, 8>> cells;   ///< VTK hexahedron order
+  std::vector<Field> point_data, cell_data;
+};
+
+class StructureFields {
+ public:
+  /// Files will be folder/stem_00000.hdf, ... and folder/stem.hdf.series. The folder must exist.
+  explicit StructureFields(std::filesystem::path folder, std::string stem = "structure");
+
+  /// Writes the snapshot's file, then the index with it; both whole or not at all. Throws FileError (disk),
+  /// std::invalid_argument (sizes that do not fit, a node number out of range).
+  void write(double time, const StructureSnapshot& snapshot);
+
+  std::size_t snapshots() const { return files_.size(); }
+
+ private:
+  std::filesystem::path folder_;
+  std::string stem_;
+  std::vector<std::pair<std::string, double>> files_;  ///< name, time
+};
+
+}  // namespace undex::output

@@ -1,0 +1,79 @@
+#include "scene/document.hpp"
+
+#include <toml++/toml.h>
+
+#include <charconv>
+
+namespace undex::scene {
+namespace {
+
+Where place(const toml::source_region& source) {
+  return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+Node converted(const toml::node& from) {
+  Node node;
+  node.where = place(from.source());
+  if (const auto* value = from.as_boolean()) {
+    node.kind = Node::Kind::boolean;
+    node.boolean = value->get();
+  } else if (const auto* integer = from.as_integer()) {
+    node.kind = Node::Kind::integer;
+    node.integer = integer->get();
+    node.number = static_cast<double>(node.integer);
+  } else if (const auto* number = from.as_floating_point()) {
+    node.kind = Node::Kind::number;
+    node.number = number->get();
+  } else if (const auto* text = from.as_string()) {
+    node.kind = Node::Kind::text;
+    node.text = text->get();
+  } else if (const auto* array = from.as_array()) {
+    node.kind = Node::Kind::array;
+    for (const toml::node& item : *array) node.items.push_back(converted(item));
+  } else if (const auto* table = from.as_table()) {
+    node.kind = Node::Kind::table;
+    for (const auto& [key, value] : *table)
+      node.entries.push_back({std::string(key.str()), place(key.source()), converted(value)});
+  } else {
+    node.kind = Node::Kind::other;
+  }
+  return node;
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view key) const {
+  for (const Entry& entry : entries)
+    if (entry.key == key) return &entry.node;
+  return nullptr;
+}
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
+std::string Node::described() const {
+  switch (kind) {
+    case Kind::boolean: return boolean ? "true" : "false";
+    case Kind::integer: return "the number " + std::to_string(integer);
+    case Kind::number: {
+      char buffer[32];
+      const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+      return "the number " + std::string(buffer, end);
+    }
+    case Kind::text: return "the text \"" + (text.size() > 60 ? text.substr(0, 57) + "..." : text) + '"';
+    case Kind::array: return "an array of " + std::to_string(items.size());
+    case Kind::table: return "a table";
+    case Kind::other: break;
+  }
+  return "a date or time";
+}
+
+Node parse_toml(std::string_view text, const std::string& file) {
+  try {
+    Node root = converted(toml::parse(text, std::string_view(file)));
+    root.where = {1, 1};
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw SceneError(file, {{place(error.source()), "not TOML: " + std::string(error.description())}});
+  }
+}
+
+}  // namespace undex::scene

@@ -1,0 +1,45 @@
+// A scene while it is being read: the values so far, and which of them are sound enough to be checked against each other.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+#include "scene/report.hpp"
+#include "scene/scene.hpp"
+
+namespace undex::scene {
+
+struct Draft {
+  Scene scene;
+  Node root;                          ///< the document, overrides applied
+  Report report;
+  bool dimension_good = true, spacing_good = false;
+  std::vector<const Node*> body_nodes, wall_nodes, probe_nodes;  ///< into root, beside the scene's own vectors
+  std::vector<bool> body_shape_good, wall_shape_good;
+  const Node* structure_node = nullptr;
+  bool structure_shape_good = false;
+  bool material_good = false;         ///< of the structure
+};
+
+void read_fluid(Draft& draft);        // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+void read_structure(Draft& draft);    // read_structure.cpp: [structure], [coupling]
+void read_output(Draft& draft);       // read_output.cpp: [[probes]], [output], [comparison]
+void validate(Draft& draft);          // validate.cpp: what single keys cannot tell
+
+/// The name of a table element in messages: "bodies.water", or "bodies.0" where it has no usable name.
+std::string element_path(const char* list, const Node& element, std::size_t index);
+
+/// The material of a fluid body or of the structure: a name of the scene or of the library, or a table. Returns whether
+/// it was good.
+bool read_fluid_material(const Node& node, const std::string& path, Draft& draft, materials::Fluid& into);
+bool read_solid_material(const Node& node, const std::string& path, Draft& draft, materials::Solid& into);
+/// All of [materials], used or not.
+void read_own_materials(Draft& draft);
+
+/// A shape table; `allowed` are its possible types. Returns whether it was good.
+bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed,
+                Report& report, Primitive& into);
+
+}  // namespace undex::scene

@@ -1,0 +1,76 @@
+#include "scene/geometry.hpp"
+
+#include <cmath>
+
+namespace undex::scene {
+namespace {
+
+/// Moves x along the gradient of a depth until it is `target` deep; exact for the smooth parts of a distance.
+Vec3 moved_to(const Depth& depth, const Vec3& x, double at_x, double target, double probe, int dimension) {
+  Vec3 gradient = Vec3::Zero();
+  for (int a = 0; a < dimension; ++a) {
+    Vec3 above = x, below = x;
+    above[a] += probe;
+    below[a] -= probe;
+    gradient[a] = (depth(above) - depth(below)) / (2 * probe);
+  }
+  const double length = gradient.norm();
+  return length > 0.1 ? Vec3(x + (target - at_x) / length * gradient / length) : x;
+}
+
+bool within(const Bounds& window, const Vec3& x, int dimension) {
+  for (int a = 0; a < dimension; ++a)
+    if (x[a] < window.low[a] || x[a] > window.high[a]) return false;
+  return true;
+}
+
+}  // namespace
+
+Depth inside(const Shape& shape, int dimension) {
+  return [&shape, dimension](const Vec3& x) { return -signed_distance(shape, x, dimension); };
+}
+Depth outside(const Shape& shape, int dimension) {
+  return [&shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); };
+}
+
+Bounds common(const Bounds& a, const Bounds& b) { return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)}; }
+
+Bounds kept_part(const std::array<bool, 3>& symmetric) {
+  Bounds part{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+  for (int a = 0; a < 3; ++a)
+    if (symmetric[a]) part.low[a] = 0;
+  return part;
+}
+
+std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& window, double depth, int dimension) {
+  Vec3 size = Vec3::Zero();
+  for (int axis = 0; axis < dimension; ++axis) {
+    size[axis] = window.high[axis] - window.low[axis];
+    if (!(size[axis] > 0) || !(size[axis] < 1e100)) return std::nullopt;
+  }
+  const int along = dimension == 1 ? 2001 : dimension == 2 ? 121 : 25;  // odd: the middle is among them
+  const int count[3] = {along, dimension > 1 ? along : 1, dimension > 2 ? along : 1};
+  const double cell = size.norm() / along;
+  const double probe = 1e-3 * cell;
+  for (int i = 0; i < count[0]; ++i)
+    for (int j = 0; j < count[1]; ++j)
+      for (int k = 0; k < count[2]; ++k) {
+        const int at[3] = {i, j, k};
+        Vec3 x = Vec3::Zero();
+        for (int axis = 0; axis < dimension; ++axis)
+          x[axis] = window.low[axis] + (at[axis] + 0.5) / along * size[axis];
+        const double in_a = a(x), in_b = b(x);
+        if (in_a > depth && in_b > depth) return x;
+        if (std::abs(in_a) < 2 * cell && in_b > -2 * cell) {
+          const Vec3 under = moved_to(a, x, in_a, 2 * depth, probe, dimension);
+          if (within(window, under, dimension) && a(under) > depth && b(under) > depth) return under;
+        }
+        if (std::abs(in_b) < 2 * cell && in_a > -2 * cell) {
+          const Vec3 under = moved_to(b, x, in_b, 2 * depth, probe, dimension);
+          if (within(window, under, dimension) && a(under) > depth && b(under) > depth) return under;
+        }
+      }
+  return std::nullopt;
+}
+
+}  // namespace undex::scene

@@ -1,0 +1,27 @@
+// Questions about shapes that a check of a scene asks: do two overlap, is one inside the other.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/shapes.hpp"
+
+namespace undex::scene {
+
+/// Depth [m] of a point in something: positive inside, changing by at most the distance moved.
+using Depth = std::function<double(const Vec3&)>;
+
+Depth inside(const Shape& shape, int dimension);
+Depth outside(const Shape& shape, int dimension);
+
+/// A point of the window that is deeper than `depth` in both, if a search by samples finds one: on a grid, and from each
+/// grid point just under the surface of either. So thin overlaps along surfaces are found; tiny ones at a corner may not be.
+std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& window, double depth, int dimension);
+
+/// The common part of two boxes.
+Bounds common(const Bounds& a, const Bounds& b);
+
+/// The part of space that is computed: x[axis] >= 0 where there is a symmetry plane.
+Bounds kept_part(const std::array<bool, 3>& symmetric);
+
+}  // namespace undex::scene

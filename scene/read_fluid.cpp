@@ -1,0 +1,282 @@
+// [resolution], [symmetry], [scheme], [[bodies]] and [[walls]].
+#include <algorithm>
+
+#include "scene/draft.hpp"
+#include "scene/faces.hpp"
+#include "scene/numbers.hpp"
+#include "scene/suggestion.hpp"
+#include "scene/table_reader.hpp"
+
+namespace undex::scene {
+namespace {
+
+using namespace materials;
+using sph::FaceCondition;
+
+const Choices<FaceCondition> conditions{
+    {"no_slip", FaceCondition::no_slip}, {"free_slip", FaceCondition::free_slip}, {"open", FaceCondition::open}};
+
+void read_resolution(const TableReader& top, Draft& draft) {
+  sph::Lattice& lattice = draft.scene.fluid.lattice;
+  const Node* node = top.table("resolution");
+  if (!node) {
+    if (draft.root.find("bodies") && !top.has("resolution"))
+      draft.report.add(draft.root, "resolution.spacing is missing; add [resolution] with spacing = (particle distance in m)");
+    return;
+  }
+  const TableReader table(*node, "resolution", "resolution", top.dimension(), draft.report);
+  if (draft.root.find("bodies")) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
+  draft.spacing_good = table.read("spacing", lattice.spacing);
+  table.read_choice<sph::LatticeType>("lattice", lattice.type, {{"cartesian", sph::LatticeType::cartesian},
+                                                                {"rings", sph::LatticeType::rings}});
+  table.read("fit", lattice.fit);
+  table.read("origin", lattice.origin);
+  table.read("jitter", lattice.jitter);
+}
+
+void read_symmetry(const TableReader& top, Draft& draft) {
+  const Node* node = top.table("symmetry");
+  if (!node) return;
+  const TableReader table(*node, "symmetry", "symmetry", top.dimension(), draft.report);
+  std::vector<int> axes;
+  if (!table.read_axes("planes", axes)) return;
+  for (const int axis : axes) {
+    if (axis < top.dimension()) draft.scene.fluid.symmetry.axis[axis] = true;
+    else
+      table.complain("planes", std::string("symmetry.planes names \"") + "xyz"[axis] + "\", but the scene has dimension = " +
+                                   std::to_string(top.dimension()) + "; leave it out or raise the dimension");
+  }
+}
+
+void read_scheme(const TableReader& top, Draft& draft) {
+  sph::Numerics& numerics = draft.scene.fluid.numerics;
+  const Node* node = top.table("scheme");
+  if (!node) return;
+  const TableReader table(*node, "scheme", "scheme", top.dimension(), draft.report);
+  table.read_choice<sph::KernelName>("kernel", numerics.kernel, {{"gaussian", sph::KernelName::gaussian},
+                                                                 {"wendland_c2", sph::KernelName::wendland_c2}});
+  // each kernel's own usual smoothing length
+  numerics.eta = numerics.kernel == sph::KernelName::gaussian ? 1.2 : sph::Numerics{}.eta;
+  table.read("eta", numerics.eta);
+  table.read("alpha", numerics.alpha);
+  table.read("beta", numerics.beta);
+  table.read("courant", numerics.courant);
+  table.read("fixed_step", numerics.fixed_step);
+  table.read("h_low", numerics.h_low);
+  table.read("h_high", numerics.h_high);
+}
+
+/// The middle of a shape: where a charge is lit unless the scene says otherwise.
+Vec3 middle(const Primitive& shape, int dimension) {
+  const Bounds box = bounds(shape, dimension);
+  Vec3 center = Vec3::Zero();
+  for (int a = 0; a < dimension; ++a)
+    if (box.high[a] < 1e200) center[a] = 0.5 * (box.low[a] + box.high[a]);
+  return center;
+}
+
+bool is_gas(const FluidLaw& law) {
+  return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) ||
+         std::holds_alternative<Jwl>(law);
+}
+
+/// A charge of law jwl burns from its middle unless told otherwise; burn = "instantaneous" is short for a table.
+void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
+  const auto* products = std::get_if<Jwl>(&body.material.law);
+  if (!products) {
+    if (table.has("burn"))
+      table.complain("burn", table.path_of("burn") + ": the material '" + body.material.name +
+                                 "' does not burn; only law \"jwl\" does");
+    return;
+  }
+  const Choices<bool> models{{"programmed", false}, {"instantaneous", true}};
+  const double spacing = body.spacing.value_or(draft.scene.fluid.lattice.spacing);
+  bool instantaneous = false;
+  Vec3 origin = middle(body.shape.base, table.dimension());
+  double width = 1.5 * spacing;
+  std::optional<double> speed, compression;
+  if (const Node* node = table.find("burn"); node && node->kind == Node::Kind::text) {
+    table.read_choice("burn", instantaneous, models);
+  } else if (node && node->kind != Node::Kind::table) {
+    table.complain("burn", table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " +
+                               node->described());
+  } else if (node) {
+    const TableReader burn(*node, table.path_of("burn"), "burn", table.dimension(), table.report());
+    burn.read_choice("model", instantaneous, models);
+    if (instantaneous)
+      for (const char* key : {"initiation", "speed", "width", "cj_compression"})
+        if (burn.has(key))
+          burn.complain(key, burn.path_of(key) + " means nothing where model = \"instantaneous\"; leave it out");
+    burn.read("initiation", origin);
+    burn.read("width", width);
+    burn.read("speed", speed);
+    burn.read("cj_compression", compression);
+  }
+  if (instantaneous) return;
+  ProgrammedBurn programmed;
+  try {
+    programmed = programmed_burn(*products, origin, width);
+  } catch (const std::exception& error) {  // no Chapman-Jouguet state
+    if (!compression) {
+      table.complain("material", table.path_of("material") + ": " + error.what() +
+                                     "; mend its parameters or give burn.cj_compression (0: off)");
+      return;
+    }
+    programmed.origin = origin;
+    programmed.width = width;
+    programmed.D = products->parameters().D;
+  }
+  if (speed) programmed.D = *speed;
+  if (compression) programmed.cj_compression = *compression;
+  body.burn = programmed;
+}
+
+/// subtract = [shape or name of a body or of the structure, ...]: names are resolved once all bodies are known.
+void read_subtractions(const TableReader& table, sph::Body& body,
+                       std::vector<std::pair<const Node*, std::size_t>>& names, std::size_t index) {
+  const Node* list = table.find("subtract");
+  if (!list) return;
+  const std::string path = table.path_of("subtract");
+  if (list->kind != Node::Kind::array) {
+    table.complain("subtract", path + " must be an array of shapes and names of bodies, not " + list->described());
+    return;
+  }
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    const Node& item = list->items[i];
+    if (item.kind == Node::Kind::text) {
+      names.emplace_back(&item, index);
+      continue;
+    }
+    Primitive removed = Sphere{Vec3::Zero(), 0};
+    if (read_shape(item, path + '.' + std::to_string(i), table.dimension(), {"box", "slab", "sphere", "cylinder", "tube"},
+                   table.report(), removed))
+      body.shape.removed.push_back(removed);
+  }
+}
+
+sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good,
+                    std::vector<std::pair<const Node*, std::size_t>>& names, std::size_t index) {
+  Report& report = draft.report;
+  const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
+  sph::Body body{.name = std::to_string(index),
+                 .shape = {Sphere{Vec3::Zero(), 0}, {}},
+                 .material = {"", "", TaitWater({}), 1000.0}};
+  table.need("name", "every body has a name");
+  table.read_name("name", body.name);
+  if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))
+    shape_good = read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(),
+                            {"box", "slab", "sphere", "cylinder", "tube"}, report, body.shape.base);
+  read_subtractions(table, body, names, index);
+  bool material_good = table.need("material", "e.g. material = \"water-tait\" ('undex materials' lists them)");
+  if (material_good) {
+    std::string material_path = table.path_of("material");
+    material_good = read_fluid_material(*table.find("material"), material_path, draft, body.material);
+  }
+  table.read("spacing", body.spacing);
+  table.read("velocity", body.velocity);
+  const bool pressure_good = table.read("pressure", body.pressure);
+  table.read("density", body.density);
+  table.read("energy", body.energy);
+  body.variable_h = material_good && is_gas(body.material.law);
+  table.read("variable_h", body.variable_h);
+  if (!material_good) return body;
+  read_burn(table, draft, body);
+  if (pressure_good && !body.density) {
+    const auto* products = std::get_if<Jwl>(&body.material.law);
+    try {
+      const double density = density_at(body.material.law, *body.pressure,
+                                        body.energy.value_or(products ? products->parameters().E0 : 0.0));
+      if (!(density > 0)) throw std::domain_error("it would need the density " + rounded(density) + " kg/m^3");
+    } catch (const std::exception& error) {
+      table.complain("pressure", table.path_of("pressure") + " = " + shortest(*body.pressure) + " Pa: " + error.what());
+    }
+  }
+  if (body.energy && !uses_energy(body.material.law))
+    table.complain("energy", table.path_of("energy") + ": the law of '" + body.material.name +
+                                 "' is barotropic, it has no energy; leave it out");
+  return body;
+}
+
+/// Puts the shapes of named bodies (or of the structure) where `subtract` names them.
+void resolve_names(Draft& draft, const std::vector<std::pair<const Node*, std::size_t>>& names) {
+  std::vector<sph::Body>& bodies = draft.scene.fluid.bodies;
+  for (const auto& [node, index] : names) {
+    const std::string path = "bodies." + bodies[index].name + ".subtract";
+    std::vector<std::string> known;
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (i != index) known.push_back(bodies[i].name);
+      if (bodies[i].name == node->text) other = i + 1;
+    }
+    if (other == index + 1) {
+      draft.report.add(*node, path + ": a body cannot be subtracted from itself");
+    } else if (other == 0) {
+      draft.report.add(*node, path + ": no body '" + node->text + "'" + suggestion(node->text, known));
+    } else {
+      const sph::Body& removed = bodies[other - 1];
+      const Node* subtract = draft.body_nodes[other - 1]->find("subtract");
+      if (subtract && subtract->kind == Node::Kind::array && !subtract->items.empty())
+        draft.report.add(*node, path + ": '" + node->text + "' itself has subtractions; subtract plain shapes instead");
+      else if (draft.body_shape_good[other - 1])
+        bodies[index].shape.removed.push_back(removed.shape.base);
+    }
+  }
+}
+
+void read_bodies(const TableReader& top, Draft& draft) {
+  std::vector<std::pair<const Node*, std::size_t>> names;
+  const auto nodes = top.tables("bodies");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    bool shape_good = false;
+    draft.scene.fluid.bodies.push_back(
+        read_body(*nodes[i], element_path("bodies", *nodes[i], i), draft, shape_good, names, i));
+    draft.body_nodes.push_back(nodes[i]);
+    draft.body_shape_good.push_back(shape_good);
+  }
+  resolve_names(draft, names);
+}
+
+void read_wall(const Node& node, const std::string& path, Draft& draft) {
+  const TableReader table(node, path, "walls", draft.scene.fluid.dimension, draft.report);
+  sph::Wall wall{.name = std::to_string(draft.wall_nodes.size()), .container = Box{}, .faces = {}};
+  table.need("name", "every wall has a name");
+  table.read_name("name", wall.name);
+  const bool good = table.need("shape", "a box or cylinder round the fluid") &&
+                    read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(), {"box", "cylinder"},
+                               draft.report, wall.container);
+  FaceCondition otherwise = FaceCondition::free_slip;
+  table.read_choice("condition", otherwise, conditions);
+  if (good) {
+    const std::vector<std::string> names = wall_faces(wall.container, table.dimension());
+    for (const std::string& name : names) wall.faces[name] = otherwise;
+    if (const Node* faces = table.table("faces")) {
+      const char* kind = std::holds_alternative<Cylinder>(wall.container) ? "faces.cylinder" : "faces.box";
+      const TableReader face_table(*faces, table.path_of("faces"), kind, table.dimension(), draft.report);
+      for (const Key& key : section(kind).keys) {
+        if (!face_table.has(key.name.c_str())) continue;
+        if (!wall.faces.contains(key.name))
+          face_table.complain(key.name.c_str(), face_table.path_of(key.name.c_str()) +
+                                                    ": in dimension = " + std::to_string(table.dimension()) +
+                                                    " the wall has only the faces " + listed(names));
+        else face_table.read_choice(key.name.c_str(), wall.faces[key.name], conditions);
+      }
+    }
+  }
+  draft.scene.fluid.walls.push_back(wall);
+  draft.wall_nodes.push_back(&node);
+  draft.wall_shape_good.push_back(good);
+}
+
+}  // namespace
+
+void read_fluid(Draft& draft) {
+  const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
+  read_resolution(top, draft);
+  read_symmetry(top, draft);
+  read_scheme(top, draft);
+  read_bodies(top, draft);
+  const auto walls = top.tables("walls");
+  for (std::size_t i = 0; i < walls.size(); ++i) read_wall(*walls[i], element_path("walls", *walls[i], i), draft);
+}
+
+}  // namespace undex::scene

@@ -1,0 +1,100 @@
+// [[probes]], [output] and [comparison].
+#include <algorithm>
+
+#include "scene/draft.hpp"
+#include "scene/suggestion.hpp"
+#include "scene/table_reader.hpp"
+
+namespace undex::scene {
+namespace {
+
+const std::vector<std::string> fluid_quantities{"pressure", "velocity", "density", "void_fraction"};
+const std::vector<std::string> structure_quantities{"displacement", "velocity", "stress", "plastic_strain", "temperature"};
+const std::vector<std::string> known_particle_fields{"pressure", "density", "velocity", "void_fraction", "energy",
+                                                     "smoothing_length", "material", "sound_speed", "mass"};
+
+/// Reports every word that is not known, and every repetition.
+void check_words(const TableReader& table, const char* key, const std::vector<std::string>& words,
+                 const std::vector<std::string>& known) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (std::find(known.begin(), known.end(), words[i]) == known.end()) table.unknown_word(key, words[i], known);
+    if (std::find(words.begin(), words.begin() + static_cast<long>(i), words[i]) != words.begin() + static_cast<long>(i))
+      table.complain(key, table.path_of(key) + " names '" + words[i] + "' twice; name it once");
+  }
+}
+
+void read_probe(const Node& node, const std::string& path, Draft& draft) {
+  const TableReader table(node, path, "probes", draft.scene.fluid.dimension, draft.report);
+  Probe probe;
+  probe.name = std::to_string(draft.probe_nodes.size());
+  table.need("name", "every probe has a name");
+  table.read_name("name", probe.name);
+  if (!table.has("kind")) {
+    probe.kind = draft.root.find("bodies") ? Probe::Kind::fluid : Probe::Kind::structure;
+  } else {
+    table.read_choice<Probe::Kind>("kind", probe.kind, {{"fluid", Probe::Kind::fluid},
+                                                        {"wall", Probe::Kind::wall},
+                                                        {"structure", Probe::Kind::structure}});
+  }
+  table.need("point", "give its position in m");
+  table.read("point", probe.point);
+  const bool in_structure = probe.kind == Probe::Kind::structure;
+  const auto& known = in_structure ? structure_quantities : fluid_quantities;
+  probe.quantities = known;
+  table.read("quantities", probe.quantities);
+  if (probe.quantities.empty())
+    table.complain("quantities", table.path_of("quantities") + " is empty; name some of " + listed(known));
+  check_words(table, "quantities", probe.quantities, known);
+  draft.scene.probes.push_back(probe);
+  draft.probe_nodes.push_back(&node);
+}
+
+void read_output_table(const TableReader& top, Draft& draft) {
+  const Node* node = top.table("output");
+  if (!node) return;
+  Output& output = draft.scene.output;
+  const TableReader table(*node, "output", "output", top.dimension(), draft.report);
+  table.read("history_interval", output.history_interval);
+  table.read("field_interval", output.field_interval);
+  if (table.read("field_times", output.field_times))
+    std::sort(output.field_times.begin(), output.field_times.end());
+  if (table.read("particle_fields", output.particle_fields))
+    check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
+  table.read("structure_fields", output.structure_fields);
+}
+
+void read_comparison(const TableReader& top, Draft& draft) {
+  Comparison& comparison = draft.scene.comparison;
+  comparison.kind = "none";
+  const Node* node = top.table("comparison");
+  if (!node) return;
+  const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
+  table.read_choice<std::string>("kind", comparison.kind,
+                                 {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"}});
+  if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
+    std::vector<std::string> names;
+    for (const Probe& probe : draft.scene.probes) names.push_back(probe.name);
+    if (std::find(names.begin(), names.end(), comparison.probe) == names.end())
+      table.complain("probe", "comparison.probe: no probe '" + comparison.probe + "'" + suggestion(comparison.probe, names));
+  }
+  if (comparison.kind != "none") table.need("probe", "name the probe that is compared");
+  if (std::string reference; table.read("reference", reference) && !reference.empty()) {
+    const std::filesystem::path full = draft.scene.file.parent_path() / reference;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(full, ignored))
+      table.complain("reference", "comparison.reference: no file '" + full.string() + "'; give it relative to the scene file");
+    comparison.reference = std::filesystem::absolute(full).lexically_normal().string();
+  }
+}
+
+}  // namespace
+
+void read_output(Draft& draft) {
+  const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
+  const auto probes = top.tables("probes");
+  for (std::size_t i = 0; i < probes.size(); ++i) read_probe(*probes[i], element_path("probes", *probes[i], i), draft);
+  read_output_table(top, draft);
+  read_comparison(top, draft);
+}
+
+}  // namespace undex::scene

@@ -1,0 +1,72 @@
+// A scene: everything that a run needs, as plain data, read from one TOML file.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/settings.hpp"
+#include "fem_structure/settings.hpp"
+#include "sph_fluid/settings.hpp"
+
+namespace undex::scene {
+
+/// A point whose values are written as a history.
+struct Probe {
+  enum class Kind {
+    fluid,      ///< Shepard average of the fluid at a fixed point
+    wall,       ///< the same at a point of a rigid wall or of the (moving) wet face nearest to it
+    structure,  ///< a material point of the structure
+  };
+  std::string name;
+  Kind kind = Kind::fluid;
+  Vec3 point = Vec3::Zero();              ///< [m]
+  std::vector<std::string> quantities;    ///< fluid, wall: pressure, velocity, density, void_fraction;
+                                          ///< structure: displacement, velocity, stress, plastic_strain, temperature
+};
+
+/// What is written, and how often. Zero interval: never.
+struct Output {
+  double history_interval = 0;            ///< [s]; 0: every step
+  double field_interval = 0;              ///< [s] between field snapshots
+  std::vector<double> field_times;        ///< [s] further snapshots at these times
+  std::vector<std::string> particle_fields{"pressure", "density", "velocity", "void_fraction"};
+                                          ///< also: energy, smoothing_length, material, sound_speed, mass
+  bool structure_fields = true;
+};
+
+/// A reference history or table that a run is compared with by the named comparison.
+struct Comparison {
+  std::string kind;       ///< "none", "rigid_cylinder", "tube"
+  std::string probe;      ///< the probe it reads
+  std::string reference;  ///< CSV path, relative to the scene file; may be empty
+};
+
+struct Scene {
+  std::string name, title;
+  std::filesystem::path file;             ///< where it was read from
+  double end_time = 0;                    ///< [s]
+  bool deterministic = true;
+  sph::Settings fluid;                    ///< without bodies where there is no fluid
+  std::optional<fem::Settings> structure;
+  coupling::Settings coupling;
+  std::vector<Probe> probes;
+  Output output;
+  Comparison comparison;
+};
+
+/// An override from the command line: dotted key and TOML value text, e.g. {"resolution.spacing", "0.001"}.
+struct Override {
+  std::string key, value;
+};
+
+/// Reads and validates a scene (a .toml file, or a folder with case.toml). Throws SceneError with every mistake found,
+/// FileError when the file cannot be read.
+Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
+
+/// The scene as TOML with every default filled in (resolved.toml); reading it back gives the same scene.
+std::string to_toml(const Scene& scene);
+
+}  // namespace undex::scene

@@ -1,0 +1,674 @@
+#include "sph_fluid/fluid.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+#include "sph_fluid/cell_list.hpp"
+#include "sph_fluid/kernels.hpp"
+#include "sph_fluid/lattice.hpp"
+#include "sph_fluid/pair_loop.hpp"
+#include "sph_fluid/particles.hpp"
+#include "sph_fluid/sums.hpp"
+
+namespace undex::sph {
+namespace {
+
+/// A body's particles: one material, one smoothing-length policy, one range in memory.
+struct Group {
+  const Body* body = nullptr;
+  std::uint32_t begin = 0, end = 0;
+  double spacing = 0, h0 = 0;            // [m]
+  double rho_start = 0;                  // [kg/m^3], the density at which h is h0
+  double h_max = 0;                      // [m], the largest at present
+  std::vector<double> lighting;          // burning charges only, by id - begin [s]
+  std::vector<double> burned;            // largest burn fraction met, by id - begin
+  CellList cells;
+};
+
+double barotropic_energy(const materials::FluidLaw& law, double rho) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (std::decay_t<decltype(l)>::uses_energy)
+          return 0.0;
+        else
+          return l.barotropic_energy(rho);
+      },
+      law);
+}
+
+/// Density after half a step: rho exp(D dt) to third order in D dt, positive however large the rate.
+double advanced_density(double rho, double rate_times_step) {
+  const double s = std::clamp(0.5 * rate_times_step, -0.5, 0.5);
+  return rho * (1.0 + s) / (1.0 - s);
+}
+
+double start_density(const Body& body, double energy) {
+  if (body.density) return *body.density;
+  if (body.pressure) return materials::density_at(body.material.law, *body.pressure, energy);
+  return body.material.rho0;
+}
+
+double start_energy(const Body& body) {
+  if (body.energy) return *body.energy;
+  if (const auto* jwl = std::get_if<materials::Jwl>(&body.material.law)) return jwl->parameters().E0;
+  return 0.0;
+}
+
+}  // namespace
+
+struct Fluid::Implementation {
+  Settings settings;
+  PairLoops loops;
+  Particles particles;
+  std::vector<PackedParticle> packed;
+  std::vector<Group> groups;
+  std::vector<GroupView> views;
+  std::vector<Cluster> clusters;
+  std::vector<long long> interactions;
+  std::vector<double> spare;
+
+  std::vector<MovingWall> rigid;
+  std::vector<MovingWall> moving;
+  std::vector<std::vector<Vec3>> moving_force;   // at the last evaluation, per moving wall [N]
+  struct WallOrigin {
+    int wall;             // index into `moving`, or -1 - index into `rigid`
+    std::uint32_t point;
+  };
+  std::vector<PackedWall> walls;                 // sorted by cell
+  std::vector<WallOrigin> wall_origin;
+  std::vector<double> wall_x, wall_y, wall_z, wall_fx, wall_fy, wall_fz;
+  std::vector<Cluster> wall_clusters;
+  CellList wall_cells;
+  bool walls_packed = false;
+
+  std::vector<Scratch> scratch;
+  PassTimers timers;
+  double time = 0;
+  long steps = 0;
+  bool has_energy = false;
+  bool evaluated = false;
+  double dissipated = 0, wall_work = 0;
+  double wall_power = 0;                         // work on moving walls at the last evaluation [W]
+  long long interaction_sum = 0;
+  Clamps clamps;
+
+  explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel)) {
+    const int threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
+    omp_set_num_threads(threads);
+    scratch.resize(std::max(threads, omp_get_max_threads()));
+    fill();
+    rigid = line_walls(settings);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+  ~Implementation() {
+    for (Scratch& s : scratch) {
+      std::free(s.near);
+      std::free(s.variable);
+      std::free(s.wall);
+      std::free(s.index);
+    }
+  }
+
+  void fill() {
+    const std::vector<BodyParticles> bodies = fill_bodies(settings);
+    std::size_t n = 0;
+    for (const BodyParticles& body : bodies) n += body.position.size();
+    for (const Body& body : settings.bodies) has_energy = has_energy || materials::uses_energy(body.material.law);
+    particles.resize(n, has_energy);
+    packed.resize(n);
+    std::uint32_t at = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const Body& body = settings.bodies[b];
+      Group group;
+      group.body = &settings.bodies[b];
+      group.begin = at;
+      group.spacing = body.spacing.value_or(settings.lattice.spacing);
+      group.h0 = group.h_max = smoothing_length(settings, group.spacing);
+      const double energy = start_energy(body), rho = start_density(body, energy);
+      group.rho_start = rho;
+      for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
+        const Vec3& x = bodies[b].position[k];
+        particles.x[at] = x[0];
+        particles.y[at] = x[1];
+        particles.z[at] = x[2];
+        particles.vx[at] = body.velocity[0];
+        particles.vy[at] = body.velocity[1];
+        particles.vz[at] = body.velocity[2];
+        particles.rho[at] = rho;
+        particles.mass[at] = rho * bodies[b].volume[k];
+        if (has_energy) particles.energy[at] = energy;
+        particles.id[at] = at;
+        if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
+      }
+      group.burned.assign(group.lighting.size(), 0.0);
+      group.end = at;
+      groups.push_back(std::move(group));
+    }
+  }
+
+  // ---- The passes of a step -------------------------------------------------------------------------------------------
+
+  /// First half of the kick, drift, and the moving walls' half of the impulse.
+  void kick_and_drift(double dt) {
+    const auto timer = timers.measure("integration");
+    half_kick(dt);
+    Particles& p = particles;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p.x[i] += dt * p.vx[i];
+      p.y[i] += dt * p.vy[i];
+      p.z[i] += dt * p.vz[i];
+    }
+  }
+
+  void half_kick(double dt) {
+    const double half = 0.5 * dt;
+    Particles& p = particles;
+    long clamped = 0;
+#pragma omp parallel for schedule(static) reduction(+ : clamped)
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (has_energy) p.energy[i] += half * p.heat[i];
+      p.vx[i] += half * p.ax[i];
+      p.vy[i] += half * p.ay[i];
+      p.vz[i] += half * p.az[i];
+      clamped += std::abs(half * p.compression[i]) > 1.0;
+      p.rho[i] = advanced_density(p.rho[i], half * p.compression[i]);
+    }
+    clamps.density += clamped;
+    // Heat counts as dissipated where no energy field takes it up.
+    for (const Group& group : groups)
+      if (!materials::uses_energy(group.body->material.law))
+        dissipated += half * blocked_sum<double>(group.begin, group.end,
+                                                 [&](std::uint32_t i) { return p.mass[i] * p.heat[i]; });
+    for (std::size_t w = 0; w < moving.size(); ++w)
+      for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += half * moving_force[w][k];
+    wall_work += half * wall_power;
+  }
+
+  void sort() {
+    const auto timer = timers.measure("sort");
+    clusters.clear();
+    views.clear();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      Group& group = groups[g];
+      try {
+        group.cells.build(particles.x.data(), particles.y.data(), particles.z.data(), group.begin, group.end,
+                          2.0 * group.spacing * (group.body->variable_h ? group.h_max / group.h0 : 1.0));
+      } catch (const std::domain_error&) {
+        stop_at_bad_value();
+      }
+      particles.permute(group.begin, group.cells.order(), spare);
+      group.cells.append_clusters(loops.lanes, std::uint16_t(g), clusters);
+    }
+  }
+
+  /// State predicted for the end of the step, pressure and sound speed, and the smoothing length.
+  void equation_of_state(double half) {
+    const auto timer = timers.measure("equation of state");
+    for (Group& group : groups) {
+      std::visit([&](const auto& law) { evaluate_group(law, group, half); }, group.body->material.law);
+      views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h});
+    }
+  }
+
+  template <class Law>
+  void evaluate_group(const Law& law, Group& group, double half) {
+    const Particles& p = particles;
+    const bool variable = group.body->variable_h;
+    const double inverse_dimension = 1.0 / settings.dimension;
+    const double low = settings.numerics.h_low, high = settings.numerics.h_high;
+    const bool burning = group.body->burn.has_value();
+    double h_max = variable ? 0.0 : group.h0;
+    long held = 0;
+#pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held)
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      PackedParticle& q = packed[i];
+      const double energy = has_energy ? p.energy[i] + half * p.heat[i] : 0.0;
+      q.x = p.x[i];
+      q.y = p.y[i];
+      q.z = p.z[i];
+      q.vx = p.vx[i] + half * p.ax[i];
+      q.vy = p.vy[i] + half * p.ay[i];
+      q.vz = p.vz[i] + half * p.az[i];
+      q.rho = advanced_density(p.rho[i], half * p.compression[i]);
+      q.V = p.mass[i] / q.rho;
+      materials::PressureSound state;
+      if constexpr (std::is_same_v<Law, materials::Jwl>) {
+        if (burning) {
+          const std::uint32_t k = p.id[i] - group.begin;
+          state = burning_state(law, group, k, q.rho, energy);
+        } else {
+          state = law.evaluate(q.rho, energy);
+        }
+      } else {
+        state = law.evaluate(q.rho, energy);
+      }
+      q.p = state.pressure;
+      q.c = state.sound_speed;
+      q.h = group.h0;
+      if (variable) {
+        const double wanted = std::pow(group.rho_start / q.rho, inverse_dimension);
+        held += wanted < low || wanted > high;
+        q.h *= std::clamp(wanted, low, high);
+        h_max = std::max(h_max, q.h);
+      }
+    }
+    clamps.smoothing += held;
+    group.h_max = h_max;
+  }
+
+  materials::PressureSound burning_state(const materials::Jwl& law, Group& group, std::uint32_t k, double rho, double energy) {
+    const materials::ProgrammedBurn& burn = *group.body->burn;
+    double fraction = 1.0;
+    if (!burn.instantaneous) {
+      // The front is timed from where the zone was at the start.
+      const double since = evaluation_time - group.lighting[k];
+      const double timed = burn.width > 0 ? std::clamp(since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
+      const double squeezed = burn.fraction(burn.origin, -1.0, rho / group.body->material.rho0);
+      fraction = group.burned[k] = std::max({group.burned[k], timed, squeezed});
+    }
+    return materials::burning(law, rho, energy, fraction);
+  }
+  double evaluation_time = 0;
+
+  void pack_walls() {
+    if (walls_packed && moving.empty()) return;
+    const auto timer = timers.measure("walls");
+    std::vector<PackedWall> all;
+    std::vector<WallOrigin> origin;
+    const auto add = [&](const MovingWall& wall, int index) {
+      for (std::size_t k = 0; k < wall.position.size(); ++k) {
+        const Vec3 &x = wall.position[k], &v = wall.velocity[k], &n = wall.normal[k];
+        all.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2], wall.volume[k], wall.free_slip ? 1.0 : 0.0, 0.0});
+        origin.push_back({index, std::uint32_t(k)});
+      }
+    };
+    for (std::size_t w = 0; w < moving.size(); ++w) add(moving[w], int(w));
+    for (std::size_t w = 0; w < rigid.size(); ++w) add(rigid[w], -1 - int(w));
+    const std::uint32_t n = std::uint32_t(all.size());
+    for (auto* a : {&wall_x, &wall_y, &wall_z, &wall_fx, &wall_fy, &wall_fz}) a->resize(n);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      wall_x[k] = all[k].x;
+      wall_y[k] = all[k].y;
+      wall_z[k] = all[k].z;
+    }
+    wall_cells.build(wall_x.data(), wall_y.data(), wall_z.data(), 0, n, 2.0 * settings.lattice.spacing);
+    walls.resize(n);
+    wall_origin.resize(n);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      walls[k] = all[wall_cells.order()[k]];
+      wall_origin[k] = origin[wall_cells.order()[k]];
+      wall_x[k] = walls[k].x;
+      wall_y[k] = walls[k].y;
+      wall_z[k] = walls[k].z;
+    }
+    wall_clusters.clear();
+    wall_cells.append_clusters(loops.lanes, 0, wall_clusters);
+    walls_packed = true;
+  }
+
+  PairInput pair_input() {
+    PairInput in{};
+    in.dimension = settings.dimension;
+    in.x = particles.x.data();
+    in.y = particles.y.data();
+    in.z = particles.z.data();
+    in.packed = packed.data();
+    in.groups = views.data();
+    in.group_count = int(views.size());
+    in.walls = walls.data();
+    in.wall_x = wall_x.data();
+    in.wall_y = wall_y.data();
+    in.wall_z = wall_z.data();
+    if (!walls.empty()) in.wall_grid = wall_cells.view();
+    in.wall_count = std::uint32_t(walls.size());
+    for (int a = 0; a < 3; ++a) in.mirror[a] = settings.symmetry.axis[a];
+    in.alpha = settings.numerics.alpha;
+    in.beta = settings.numerics.beta;
+    in.clusters = clusters.data();
+    in.cluster_count = std::uint32_t(clusters.size());
+    in.scratch = scratch.data();
+    return in;
+  }
+
+  void pairs(const PairInput& in) {
+    const auto timer = timers.measure("pairs");
+    interactions.resize(clusters.size());
+    Particles& p = particles;
+    loops.fluid_rates(in, {p.ax.data(), p.ay.data(), p.az.data(), p.compression.data(), p.heat.data(), p.closing.data(),
+                           interactions.data()});
+    for (const long long count : interactions) interaction_sum += count;
+    // Where there is an energy field, its rate is the viscous heat plus the pressure's work.
+    for (const Group& group : groups)
+      if (materials::uses_energy(group.body->material.law))
+#pragma omp parallel for schedule(static)
+        for (std::uint32_t i = group.begin; i < group.end; ++i)
+          p.heat[i] += packed[i].p / packed[i].rho * p.compression[i];
+  }
+
+  void wall_forces(const PairInput& in) {
+    if (moving.empty()) return;
+    const auto timer = timers.measure("wall forces");
+    loops.wall_forces(in, wall_clusters.data(), std::uint32_t(wall_clusters.size()),
+                      {wall_fx.data(), wall_fy.data(), wall_fz.data()});
+    wall_power = 0;
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      if (wall_origin[k].wall >= 0) {
+        moving_force[wall_origin[k].wall][wall_origin[k].point] = {wall_fx[k], wall_fy[k], wall_fz[k]};
+        wall_power += wall_fx[k] * walls[k].vx + wall_fy[k] * walls[k].vy + wall_fz[k] * walls[k].vz;
+      }
+  }
+
+  /// Rates at the present positions, with the state predicted `half` [s] ahead of the half-kicked one.
+  void evaluate(double half) {
+    sort();
+    equation_of_state(half);
+    pack_walls();
+    const PairInput in = pair_input();
+    pairs(in);
+    wall_forces(in);
+    evaluated = true;
+  }
+
+  void step(double dt) {
+    if (!evaluated) evaluate(0.0);
+    kick_and_drift(dt);
+    evaluation_time = time + dt;
+    evaluate(0.5 * dt);
+    {
+      const auto timer = timers.measure("integration");
+      half_kick(dt);
+    }
+    time += dt;
+    ++steps;
+  }
+
+  // ---- What others ask ------------------------------------------------------------------------------------------------
+
+  StepLimit step_limit() {
+    if (!evaluated) evaluate(0.0);
+    StepLimit limit;
+    const Numerics& numerics = settings.numerics;
+    limit.step = std::numeric_limits<double>::infinity();
+    std::uint32_t worst = 0;
+    bool force = false, finite = true;
+#pragma omp parallel
+    {
+      double best = std::numeric_limits<double>::infinity();
+      std::uint32_t where = 0;
+      bool by_force = false, ok = true;
+#pragma omp for schedule(static)
+      for (std::uint32_t i = 0; i < particles.size(); ++i) {
+        const PackedParticle& q = packed[i];
+        const double a2 = particles.ax[i] * particles.ax[i] + particles.ay[i] * particles.ay[i] + particles.az[i] * particles.az[i];
+        const double signal = q.c + 0.6 * (numerics.alpha * q.c + numerics.beta * particles.closing[i]);
+        const double courant = numerics.courant * q.h / signal;
+        const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
+        ok = ok && std::isfinite(a2) && std::isfinite(signal);
+        if (std::min(courant, push) < best) {
+          best = std::min(courant, push);
+          where = i;
+          by_force = push < courant;
+        }
+      }
+#pragma omp critical
+      {
+        finite = finite && ok;
+        // The particle's place breaks ties, so that the answer does not depend on who comes first.
+        if (best < limit.step || (best == limit.step && where < worst)) {
+          limit.step = best;
+          worst = where;
+          force = by_force;
+        }
+      }
+    }
+    if (!finite) stop_at_bad_value();
+    limit.criterion = force ? "force" : "Courant";
+    limit.particle = particles.id[worst];
+    limit.position = {particles.x[worst], particles.y[worst], particles.z[worst]};
+    limit.body = body_of(worst).name;
+    if (numerics.fixed_step) {
+      limit.step = *numerics.fixed_step;
+      limit.criterion = "fixed";
+    }
+    return limit;
+  }
+
+  const Body& body_of(std::uint32_t i) const {
+    for (const Group& group : groups)
+      if (i < group.end) return *group.body;
+    return *groups.back().body;
+  }
+
+  [[noreturn]] void stop_at_bad_value() const {
+    const Particles& p = particles;
+    for (std::uint32_t i = 0; i < p.size(); ++i) {
+      const std::pair<const char*, double> values[] = {
+          {"position", p.x[i] + p.y[i] + p.z[i]}, {"velocity", p.vx[i] + p.vy[i] + p.vz[i]}, {"density", p.rho[i]},
+          {"acceleration", p.ax[i] + p.ay[i] + p.az[i]}, {"pressure", packed[i].p}, {"sound speed", packed[i].c}};
+      for (const auto& [name, value] : values)
+        if (!std::isfinite(value)) {
+          char text[400];
+          std::snprintf(text, sizeof text,
+                        "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
+                        "a smaller scheme.courant or a larger scheme.beta may hold it",
+                        steps, time, name, p.id[i], body_of(i).name.c_str(), packed[i].x, packed[i].y, packed[i].z);
+          throw NumericalStop(text);
+        }
+    }
+    throw NumericalStop("step " + std::to_string(steps) + ": a value is not finite");
+  }
+
+  Ledger ledger() const {
+    const Particles& p = particles;
+    struct Part {
+      double kinetic = 0, internal = 0, mass = 0;
+      double momentum[3] = {0, 0, 0};
+      void operator+=(const Part& o) {
+        kinetic += o.kinetic;
+        internal += o.internal;
+        mass += o.mass;
+        for (int a = 0; a < 3; ++a) momentum[a] += o.momentum[a];
+      }
+    };
+    Ledger ledger;
+    for (const Group& group : groups) {
+      const materials::FluidLaw& law = group.body->material.law;
+      const bool with_energy = materials::uses_energy(law);
+      const Part part = blocked_sum<Part>(group.begin, group.end, [&](std::uint32_t i) {
+        Part one;
+        one.mass = p.mass[i];
+        one.kinetic = 0.5 * p.mass[i] * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+        one.internal = p.mass[i] * (with_energy ? p.energy[i] : barotropic_energy(law, p.rho[i]));
+        one.momentum[0] = p.mass[i] * p.vx[i];
+        one.momentum[1] = p.mass[i] * p.vy[i];
+        one.momentum[2] = p.mass[i] * p.vz[i];
+        return one;
+      });
+      ledger.kinetic += part.kinetic;
+      ledger.internal += part.internal;
+      ledger.mass += part.mass;
+      for (int a = 0; a < 3; ++a) ledger.momentum[a] += part.momentum[a];
+    }
+    ledger.dissipated = dissipated;
+    ledger.wall_work = wall_work;
+    return ledger;
+  }
+
+  /// Calls visit(index, distance) for every particle, images included, within `radius_over_h` of its own h of the point.
+  template <class Visit>
+  void around(const Vec3& point, double radius_over_h, Visit visit) const {
+    for (const Group& group : groups) {
+      if (group.cells.order().empty()) continue;
+      const CellGrid grid = group.cells.view();
+      const double reach = radius_over_h * group.h_max;
+      for (int image = 0; image < 8; ++image) {
+        Vec3 at = point;
+        bool wanted = true;
+        for (int a = 0; a < 3; ++a)
+          if (image >> a & 1) {
+            wanted = wanted && settings.symmetry.axis[a] && point[a] < reach;
+            at[a] = -at[a];
+          }
+        if (!wanted) continue;
+        int first[3], last[3];
+        for (int a = 0; a < 3; ++a) {
+          first[a] = std::max(0, int(std::floor((at[a] - reach - grid.low[a]) / grid.size[a])));
+          last[a] = std::min(grid.count[a] - 1, int(std::floor((at[a] + reach - grid.low[a]) / grid.size[a])));
+        }
+        for (int iz = first[2]; iz <= last[2]; ++iz)
+          for (int iy = first[1]; iy <= last[1]; ++iy)
+            for (int ix = first[0]; ix <= last[0]; ++ix) {
+              const std::size_t cell = (std::size_t(iz) * grid.count[1] + iy) * grid.count[0] + ix;
+              for (std::uint32_t i = grid.start[cell]; i < grid.start[cell + 1]; ++i) {
+                const PackedParticle& q = packed[i];
+                const double r = (Vec3(q.x, q.y, q.z) - at).norm();
+                if (r < radius_over_h * q.h) visit(i, r, group, image);
+              }
+            }
+      }
+    }
+  }
+
+  /// Shepard average with Wendland's kernel at h = 1.2 spacings, whatever the scheme's own.
+  PointValues at(const Vec3& point) const {
+    const double shrink = 1.2 / settings.numerics.eta;
+    PointValues values;
+    double weight = 0;
+    around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
+      const PackedParticle& q = packed[i];
+      const double w = q.V * value<WendlandC2>(r, shrink * q.h, settings.dimension);
+      weight += w;
+      values.pressure += w * q.p;
+      values.density += w * q.rho;
+      values.void_fraction +=
+          w * std::visit([&](const auto& law) { return law.void_fraction(q.rho); }, group.body->material.law);
+      const double v[3] = {q.vx, q.vy, q.vz};
+      for (int a = 0; a < 3; ++a) values.velocity[a] += w * (image >> a & 1 ? -v[a] : v[a]);
+      ++values.neighbours;
+    });
+    if (weight > 0) {
+      values.pressure /= weight;
+      values.density /= weight;
+      values.void_fraction /= weight;
+      values.velocity /= weight;
+    }
+    return values;
+  }
+
+  std::vector<double> field(std::string_view name) const {
+    const Particles& p = particles;
+    const std::size_t n = p.size();
+    std::vector<double> out(n);
+    const auto scalar = [&](auto f) {
+#pragma omp parallel for schedule(static)
+      for (std::size_t i = 0; i < n; ++i) out[i] = f(i);
+    };
+    if (name == "position" || name == "velocity") {
+      const bool place = name == "position";
+      out.resize(3 * n);
+      for (std::size_t i = 0; i < n; ++i) {
+        out[3 * i] = place ? p.x[i] : p.vx[i];
+        out[3 * i + 1] = place ? p.y[i] : p.vy[i];
+        out[3 * i + 2] = place ? p.z[i] : p.vz[i];
+      }
+    } else if (name == "pressure") {
+      scalar([&](std::size_t i) { return packed[i].p; });
+    } else if (name == "density") {
+      scalar([&](std::size_t i) { return p.rho[i]; });
+    } else if (name == "sound_speed") {
+      scalar([&](std::size_t i) { return packed[i].c; });
+    } else if (name == "smoothing_length") {
+      scalar([&](std::size_t i) { return packed[i].h; });
+    } else if (name == "mass") {
+      scalar([&](std::size_t i) { return p.mass[i]; });
+    } else if (name == "id") {
+      scalar([&](std::size_t i) { return double(p.id[i]); });
+    } else if (name == "void_fraction" || name == "material" || name == "energy") {
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Group& group = groups[g];
+        const materials::FluidLaw& law = group.body->material.law;
+        for (std::uint32_t i = group.begin; i < group.end; ++i)
+          out[i] = name == "material"      ? double(g)
+                   : name == "void_fraction" ? std::visit([&](const auto& l) { return l.void_fraction(p.rho[i]); }, law)
+                   : materials::uses_energy(law) ? p.energy[i]
+                                                 : barotropic_energy(law, p.rho[i]);
+      }
+    } else {
+      throw std::invalid_argument("no particle field is named '" + std::string(name) + "'");
+    }
+    return out;
+  }
+
+  template <class F>
+  double largest(F f) const {
+    double result = 0;
+#pragma omp parallel for schedule(static) reduction(max : result)
+    for (std::size_t i = 0; i < particles.size(); ++i) result = std::max(result, f(i));
+    return result;
+  }
+};
+
+Fluid::Fluid(const Settings& settings) : self_(std::make_unique<Implementation>(settings)) {}
+Fluid::~Fluid() = default;
+Fluid::Fluid(Fluid&&) noexcept = default;
+
+const Settings& Fluid::settings() const { return self_->settings; }
+std::size_t Fluid::particle_count() const { return self_->particles.size(); }
+std::size_t Fluid::wall_particle_count() const {
+  std::size_t count = 0;
+  for (const MovingWall& wall : self_->rigid) count += wall.position.size();
+  for (const MovingWall& wall : self_->moving) count += wall.position.size();
+  return count;
+}
+std::vector<std::size_t> Fluid::particles_by_body() const {
+  std::vector<std::size_t> counts;
+  for (const Group& group : self_->groups) counts.push_back(group.end - group.begin);
+  return counts;
+}
+std::size_t Fluid::memory_bytes() const {
+  const Implementation& s = *self_;
+  std::size_t bytes = s.particles.memory_bytes() + s.packed.capacity() * sizeof(PackedParticle) +
+                      s.clusters.capacity() * (sizeof(Cluster) + sizeof(long long)) + s.spare.capacity() * sizeof(double) +
+                      s.walls.capacity() * (sizeof(PackedWall) + 6 * sizeof(double) + 8);
+  for (const Group& group : s.groups) bytes += group.cells.memory_bytes();
+  return bytes + s.wall_cells.memory_bytes();
+}
+double Fluid::time() const { return self_->time; }
+long Fluid::steps() const { return self_->steps; }
+
+int Fluid::add_moving_wall(MovingWall wall) {
+  wall.impulse.assign(wall.position.size(), Vec3::Zero());
+  self_->moving_force.emplace_back(wall.position.size(), Vec3::Zero());
+  self_->moving.push_back(std::move(wall));
+  self_->evaluated = false;
+  return int(self_->moving.size()) - 1;
+}
+MovingWall& Fluid::moving_wall(int index) { return self_->moving.at(index); }
+
+StepLimit Fluid::step_limit() { return self_->step_limit(); }
+void Fluid::step(double dt) { self_->step(dt); }
+Ledger Fluid::ledger() const { return self_->ledger(); }
+PointValues Fluid::at(const Vec3& point) const { return self_->at(point); }
+double Fluid::maximum_pressure() const {
+  return self_->largest([&](std::size_t i) { return self_->packed[i].p; });
+}
+double Fluid::maximum_speed() const {
+  const Particles& p = self_->particles;
+  return std::sqrt(
+      self_->largest([&](std::size_t i) { return p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]; }));
+}
+Clamps Fluid::clamps() const { return self_->clamps; }
+long long Fluid::neighbour_interactions() const { return self_->interaction_sum; }
+const PassTimers& Fluid::timers() const { return self_->timers; }
+std::vector<double> Fluid::field(std::string_view name) const { return self_->field(name); }
+
+}  // namespace undex::sph

@@ -1,0 +1,105 @@
+// The fluid: water, charge and bubble as SPH particles between walls and symmetry planes, advanced in time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/timers.hpp"
+#include "core/vector.hpp"
+#include "sph_fluid/settings.hpp"
+
+namespace undex::sph {
+
+/// Instruction set that the pair loops run with: "x86-64-v4", "x86-64-v3" or "x86-64-v2".
+const char* cpu_level();
+
+/// The largest stable step and what set it.
+struct StepLimit {
+  double step = 0;         ///< [s]
+  std::string criterion;   ///< "Courant", "force" or "fixed"
+  std::uint32_t particle = 0;
+  Vec3 position = Vec3::Zero();
+  std::string body;
+};
+
+/// Energy [J], momentum [kg m/s] and mass [kg] of the computed part (an octant's, say), booked since the start.
+struct Ledger {
+  double kinetic = 0;
+  double internal = 0;     ///< internal energy; compression energy where the law is barotropic
+  double dissipated = 0;   ///< viscous heat of barotropic bodies (where there is an energy field it is in `internal`)
+  double wall_work = 0;    ///< work that the fluid has done on moving walls
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero();
+};
+
+/// Shepard averages at a point.
+struct PointValues {
+  double pressure = 0, density = 0, void_fraction = 0;
+  Vec3 velocity = Vec3::Zero();
+  int neighbours = 0;      ///< 0: no fluid there, the values are zero
+};
+
+/// Dummy particles of one wall that a structure moves. The owner updates position, velocity and normal before each step
+/// and collects the impulse after it.
+struct MovingWall {
+  std::vector<Vec3> position;   ///< [m]
+  std::vector<Vec3> velocity;   ///< [m/s]
+  std::vector<Vec3> normal;     ///< unit, pointing away from the fluid
+  std::vector<double> volume;   ///< [m^3]
+  std::vector<Vec3> impulse;    ///< [N s] received from the fluid since the owner last set it to zero
+  bool free_slip = true;
+};
+
+/// Counts of floors and clamps that acted since the start.
+struct Clamps {
+  long density = 0;        ///< density held at its lower bound
+  long smoothing = 0;      ///< smoothing length held at a bound of [h_low, h_high]
+};
+
+class Fluid {
+ public:
+  /// Lays out the particles. Throws std::invalid_argument naming the body and the remedy where none result.
+  explicit Fluid(const Settings& settings);
+  ~Fluid();
+  Fluid(Fluid&&) noexcept;
+
+  const Settings& settings() const;
+  std::size_t particle_count() const;
+  std::size_t wall_particle_count() const;
+  /// Particles of each body, in the scene's order.
+  std::vector<std::size_t> particles_by_body() const;
+  std::size_t memory_bytes() const;
+  double time() const;
+  long steps() const;
+
+  /// Adds a wall that somebody else moves; keep the index. Its particles count from the next step on.
+  int add_moving_wall(MovingWall wall);
+  MovingWall& moving_wall(int index);
+
+  /// Valid from construction on: rates are evaluated at once.
+  StepLimit step_limit();
+  /// Advances by dt [s]. Throws NumericalStop when a value is no longer finite.
+  void step(double dt);
+
+  Ledger ledger() const;
+  PointValues at(const Vec3& point) const;
+  double maximum_pressure() const;           ///< [Pa]
+  double maximum_speed() const;              ///< [m/s]
+  Clamps clamps() const;
+  long long neighbour_interactions() const;  ///< true neighbours, directed, summed over all steps
+  const PassTimers& timers() const;
+
+  /// Copies a field for output: position, velocity (3 components each, interleaved); pressure, density, void_fraction,
+  /// energy, smoothing_length, material, sound_speed, mass, id (1). Throws std::invalid_argument for other names.
+  std::vector<double> field(std::string_view name) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace undex::sph

@@ -1,0 +1,27 @@
+// The start: shapes filled with particles, and rigid walls lined with dummy particles.
+#pragma once
+
+#include <vector>
+
+#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/settings.hpp"
+
+namespace undex::sph {
+
+struct BodyParticles {
+  std::vector<Vec3> position;   ///< [m]
+  std::vector<double> volume;   ///< [m^d]; their sum is the exact volume of the kept part of the body
+};
+
+/// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.
+std::vector<BodyParticles> fill_bodies(const Settings& settings);
+
+/// Dummy particles of the rigid walls: the lattice continued beyond every face that is not open, as deep as the kernel
+/// reaches (at least three layers). One MovingWall per slip condition; their velocity is zero.
+std::vector<MovingWall> line_walls(const Settings& settings);
+
+/// The smoothing length of the scene's lattice [m], and the reach of its kernel [m].
+double smoothing_length(const Settings& settings, double spacing);
+double kernel_support(KernelName kernel);
+
+}  // namespace undex::sph

@@ -1,0 +1,87 @@
+// What a scene says about the fluid: lattice, bodies, walls, symmetry, scheme. SI units throughout.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/shapes.hpp"
+#include "materials/burn.hpp"
+#include "materials/library.hpp"
+
+namespace undex::sph {
+
+enum class KernelName { gaussian, wendland_c2 };
+
+/// What a wall does to the flow along it.
+enum class FaceCondition { no_slip, free_slip, open };
+
+/// How particles are laid out at the start.
+enum class LatticeType {
+  cartesian,  ///< spacing dx along each axis, particles at the cells' centres
+  rings,      ///< concentric rings about an axis, fitted to a radius: quietest beside a cylindrical wall
+};
+
+/// The lattice that bodies fill. One lattice serves all bodies that do not ask for a spacing of their own, so that
+/// neighbouring bodies meet without gap or overlap.
+struct Lattice {
+  LatticeType type = LatticeType::cartesian;
+  double spacing = 0;                     ///< dx [m]
+  /// Name of the body (or wall) to whose base shape the lattice is fitted: its extent along each axis (radius, for
+  /// rings) is cut into a whole number of spacings. Empty: cell corners at multiples of dx from `origin`.
+  std::string fit;
+  Vec3 origin = Vec3::Zero();             ///< [m]
+  /// Jitter of the start as a share of dx, from a fixed seed: 0 is a perfect lattice.
+  double jitter = 0;
+};
+
+struct Body {
+  std::string name;
+  Shape shape;
+  materials::Fluid material;
+  std::optional<double> spacing;          ///< own lattice [m]; default: the scene's
+  Vec3 velocity = Vec3::Zero();           ///< [m/s]
+  std::optional<double> pressure;         ///< [Pa]; gives the density where that is not named
+  std::optional<double> density;          ///< [kg/m^3]
+  std::optional<double> energy;           ///< specific internal energy [J/kg]; default: the material's own
+  std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
+  /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
+  bool variable_h = false;
+};
+
+/// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
+struct Wall {
+  std::string name;
+  Primitive container;                        ///< Box or Cylinder (the fluid's side is inside)
+  std::map<std::string, FaceCondition> faces; ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"
+};
+
+/// Symmetry planes through the origin; the part with x[axis] >= 0 is computed.
+struct Symmetry {
+  std::array<bool, 3> axis{false, false, false};
+};
+
+/// Artificial viscosity and steps.
+struct Numerics {
+  KernelName kernel = KernelName::wendland_c2;
+  double eta = 1.5;           ///< h/dx
+  double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6)
+  double beta = 10.0;         ///< and the quadratic one
+  double courant = 0.3;       ///< dt = courant * min over particles of dx_i/(c + closing speed)
+  std::optional<double> fixed_step;  ///< [s]
+  double h_low = 0.9, h_high = 2.2;  ///< bounds of h/h0 where it follows density
+  int threads = 0;            ///< 0: all the machine has
+};
+
+struct Settings {
+  int dimension = 3;
+  Lattice lattice;
+  std::vector<Body> bodies;
+  std::vector<Wall> walls;
+  Symmetry symmetry;
+  Numerics numerics;
+};
+
+}  // namespace undex::sph

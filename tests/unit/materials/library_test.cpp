@@ -1,0 +1,149 @@
+// The named sets: complete, with sources, and with the numbers they are known by.
+#include "materials/library.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "materials/burn.hpp"
+#include "materials/tensile_test.hpp"
+
+namespace undex::materials {
+namespace {
+
+double value(const std::vector<std::pair<std::string, double>>& table, const std::string& name) {
+  for (const auto& [row, number] : table)
+    if (row == name) return number;
+  ADD_FAILURE() << "no row " << name;
+  return std::nan("");
+}
+
+TEST(Library, HasEverySetByName) {
+  const std::vector<std::string> fluids = fluid_names(), solids = solid_names();
+  EXPECT_EQ(std::set<std::string>(fluids.begin(), fluids.end()),
+            (std::set<std::string>{"water-tait", "water-tait-cutoff", "water-steinberg", "water-paper-mg",
+                                   "petn", "bubble-gas", "sjogreen-gas", "sjogreen-gas-gamma2", "air"}));
+  EXPECT_EQ(fluids.size(), 9u);
+  EXPECT_EQ(std::set<std::string>(solids.begin(), solids.end()),
+            (std::set<std::string>{"al-impact-table2", "al-2024-t351", "al-6061-t6", "al-5083-h116",
+                                   "al-5083-h116-m0859", "al-5086-o", "al-5086-h116", "armco-iron",
+                                   "copper-ofhc"}));
+  EXPECT_EQ(solids.size(), 9u);
+}
+
+TEST(Library, UnknownNamesAreNothing) {
+  for (const char* name : {"", "water", "Water-Tait", "petn ", "al-5083"}) {
+    EXPECT_FALSE(find_fluid(name).has_value()) << name;
+    EXPECT_FALSE(find_solid(name).has_value()) << name;
+  }
+  EXPECT_FALSE(find_fluid("armco-iron").has_value());
+  EXPECT_FALSE(find_solid("petn").has_value());
+}
+
+TEST(Library, FluidsAreUsable) {
+  for (const std::string& name : fluid_names()) {
+    const Fluid fluid = find_fluid(name).value();
+    EXPECT_EQ(fluid.name, name);
+    EXPECT_GT(fluid.source.size(), 20u) << name;
+    EXPECT_GT(fluid.rho0, 0.0) << name;
+    const double energy = 2e5;
+    const PressureSound s =
+        std::visit([&](const auto& law) { return law.evaluate(fluid.rho0, energy); }, fluid.law);
+    EXPECT_GT(s.pressure, 0.0) << name;
+    EXPECT_GT(s.sound_speed, 0.0) << name;
+    const double back = density_at(fluid.law, s.pressure, energy);
+    EXPECT_NEAR(back, fluid.rho0, 1e-9 * fluid.rho0) << name;
+    EXPECT_EQ(value(parameters(fluid), "rho0 [kg/m^3]"), fluid.rho0) << name;
+  }
+}
+
+TEST(Library, EveryParameterHasAUnitAndANumber) {
+  const auto check = [](const auto& set) {
+    const auto table = parameters(set);
+    EXPECT_GE(table.size(), 2u) << set.name;
+    std::set<std::string> names;
+    for (const auto& [row, number] : table) {
+      EXPECT_TRUE(row.find(" [") != std::string::npos && row.back() == ']') << set.name << ": " << row;
+      EXPECT_TRUE(std::isfinite(number)) << set.name << ": " << row;
+      EXPECT_TRUE(names.insert(row).second) << set.name << " has two rows " << row;
+    }
+  };
+  for (const std::string& name : fluid_names()) check(find_fluid(name).value());
+  for (const std::string& name : solid_names()) check(find_solid(name).value());
+}
+
+TEST(Library, SolidsAreUsable) {
+  for (const std::string& name : solid_names()) {
+    const Solid s = find_solid(name).value();
+    EXPECT_EQ(s.name, name);
+    EXPECT_GT(s.source.size(), 20u) << name;
+    EXPECT_GT(s.rho0, 0.0) << name;
+    EXPECT_GT(s.shear_modulus, 0.0) << name;
+    // Poisson's ratio from the two moduli: metals lie between 0.25 and 0.4.
+    const double K = bulk_modulus(s), nu = (3 * K - 2 * s.shear_modulus) / (2 * (3 * K + s.shear_modulus));
+    EXPECT_GT(nu, 0.25) << name;
+    EXPECT_LT(nu, 0.4) << name;
+    EXPECT_GT(wave_speed(s), 4000.0) << name;
+    EXPECT_LT(wave_speed(s), 7000.0) << name;
+    EXPECT_GT(s.heat_capacity, 300.0) << name;
+    EXPECT_LT(s.heat_capacity, 1000.0) << name;
+    EXPECT_EQ(s.taylor_quinney, 0.9) << name;
+    const double yield = flow_stress(s.flow, 0.0, 1.0, s.T_room);
+    EXPECT_GT(yield, 50e6) << name;
+    EXPECT_LT(yield, 600e6) << name;
+    if (const auto* jc = std::get_if<JohnsonCook>(&s.flow)) {
+      EXPECT_EQ(jc->T_room, s.T_room) << name;
+    }
+  }
+}
+
+TEST(Library, RecalledValuesSaySo) {
+  for (const char* name : {"al-2024-t351", "al-5083-h116", "al-5083-h116-m0859", "al-5086-o", "al-5086-h116"})
+    EXPECT_NE(find_solid(name)->source.find("recalled, not read"), std::string::npos) << name;
+  EXPECT_NE(find_fluid("water-steinberg")->source.find("recalled, not read"), std::string::npos);
+}
+
+TEST(Library, KnownNumbers) {
+  EXPECT_NEAR(std::get<TaitWater>(find_fluid("water-tait")->law).evaluate(1000.0, 0.0).sound_speed, 1538.4,
+              0.05);
+  EXPECT_EQ(std::get<TaitWater>(find_fluid("water-tait")->law).parameters().cavitation, Cavitation::schmidt);
+  EXPECT_EQ(std::get<TaitWater>(find_fluid("water-tait-cutoff")->law).parameters().cavitation,
+            Cavitation::cutoff);
+  EXPECT_NEAR(std::get<MieGruneisenWater>(find_fluid("water-steinberg")->law).evaluate(1200.0, 0.0).pressure,
+              847e6, 0.5e6);
+  EXPECT_NEAR(std::get<MieGruneisenWater>(find_fluid("water-paper-mg")->law).evaluate(1200.0, 0.0).pressure,
+              1332e6, 0.5e6);
+  EXPECT_EQ(std::get<BarotropicGas>(find_fluid("bubble-gas")->law).evaluate(1770.0, 0.0).pressure, 2e9);
+  EXPECT_EQ(std::get<BarotropicGas>(find_fluid("sjogreen-gas")->law).parameters().gamma, 1.4);
+  EXPECT_EQ(std::get<BarotropicGas>(find_fluid("sjogreen-gas-gamma2")->law).parameters().gamma, 2.0);
+  const Jwl petn = std::get<Jwl>(find_fluid("petn")->law);
+  EXPECT_NEAR(petn.parameters().E0, 5.706e6, 500.0);
+  // The published front speed and pressure fit the set's own Chapman-Jouguet state.
+  EXPECT_NEAR(chapman_jouguet(petn).detonation_speed, petn.parameters().D, 1.0);
+  EXPECT_NEAR(chapman_jouguet(petn).pressure, petn.parameters().p_cj, 0.01e9);
+
+  const Solid plate = find_solid("al-5083-h116").value();
+  EXPECT_NEAR(plate.shear_modulus, 71e9 / 2.66, 1.0);
+  EXPECT_NEAR(bulk_modulus(plate), 71e9 / 1.02, 1.0);
+  EXPECT_EQ(std::get<JohnsonCook>(plate.flow).m, 1.0);
+  EXPECT_EQ(std::get<JohnsonCook>(find_solid("al-5083-h116-m0859")->flow).m, 0.859);
+  EXPECT_EQ(std::get<LinearHardening>(find_solid("al-impact-table2")->flow).H, 0.0);
+  EXPECT_EQ(value(parameters(find_solid("al-impact-table2").value()), "C [m/s]"), 5300.0);
+  EXPECT_EQ(value(parameters(find_solid("copper-ofhc").value()), "jc_A [Pa]"), 90e6);
+}
+
+TEST(Library, HardeningOf5086FollowsFromItsTensileTests) {
+  const auto check = [](const char* name, const TensileTest& test) {
+    const auto law = std::get<JohnsonCook>(find_solid(name)->flow);
+    const PowerHardening h = hardening_from(test);
+    EXPECT_EQ(law.A, h.A) << name;
+    EXPECT_NEAR(law.B, h.B, 0.5e6) << name;
+    EXPECT_NEAR(law.n, h.n, 0.0005) << name;
+  };
+  check("al-5086-o", {.yield = 117e6, .ultimate = 262e6, .uniform_elongation = 0.22});
+  check("al-5086-h116", {.yield = 207e6, .ultimate = 290e6, .uniform_elongation = 0.12});
+}
+
+}  // namespace
+}  // namespace undex::materials
