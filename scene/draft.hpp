@@ -17,10 +17,9 @@ struct Draft {
   Report report;
   bool dimension_good = true, spacing_good = false;
   std::vector<const Node*> body_nodes, wall_nodes, probe_nodes;  ///< into root, beside the scene's own vectors
-  std::vector<bool> body_shape_good, wall_shape_good;
+  std::vector<bool> body_shape_good, wall_shape_good, probe_good;
   const Node* structure_node = nullptr;
   bool structure_shape_good = false;
-  bool material_good = false;         ///< of the structure
 };
 
 void read_fluid(Draft& draft);        // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]

@@ -1,5 +1,7 @@
 #include "scene/faces.hpp"
 
+#include <algorithm>
+
 namespace undex::scene {
 namespace {
 
@@ -22,10 +24,23 @@ std::vector<std::string> wall_faces(const Primitive& container, int dimension) {
   return box_faces(dimension);
 }
 
-std::vector<std::string> structure_faces(const fem::Mesh& mesh) {
-  if (std::holds_alternative<fem::TubeMesh>(mesh)) return {"inner", "outer", "low", "high"};
-  if (std::holds_alternative<fem::PlateMesh>(mesh)) return box_faces(3);
-  return {};
+std::vector<std::string> structure_faces(const fem::Mesh& mesh, const std::vector<int>& symmetry_axes) {
+  const auto is_cut = [&](int axis, double low) {
+    return low < 0 && std::find(symmetry_axes.begin(), symmetry_axes.end(), axis) != symmetry_axes.end();
+  };
+  std::vector<std::string> faces;
+  if (const auto* tube = std::get_if<fem::TubeMesh>(&mesh)) {
+    faces = {"inner", "outer", "high"};
+    if (!is_cut(tube->axis, tube->low)) faces.push_back("low");
+  } else if (const auto* rod = std::get_if<fem::RodMesh>(&mesh)) {
+    faces = {"side", "high"};
+    if (!is_cut(rod->axis, rod->low)) faces.push_back("low");
+  } else if (const auto* plate = std::get_if<fem::PlateMesh>(&mesh)) {
+    faces = box_faces(3);
+    for (int a = 0; a < 3; ++a)
+      if (is_cut(a, plate->low[a])) std::erase(faces, std::string(1, "xyz"[a]) + "_low");
+  }
+  return faces;
 }
 
 }  // namespace undex::scene

@@ -158,9 +158,8 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
                     std::vector<std::pair<const Node*, std::size_t>>& names, std::size_t index) {
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
-  sph::Body body{.name = std::to_string(index),
-                 .shape = {Sphere{Vec3::Zero(), 0}, {}},
-                 .material = {"", "", TaitWater({}), 1000.0}};
+  sph::Body body{std::to_string(index), {Sphere{Vec3::Zero(), 0}, {}}, {"", "", TaitWater({}), 1000.0}, {}, Vec3::Zero(),
+                 {}, {}, {}, {}, false};
   table.need("name", "every body has a name");
   table.read_name("name", body.name);
   if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))
@@ -238,7 +237,7 @@ void read_bodies(const TableReader& top, Draft& draft) {
 
 void read_wall(const Node& node, const std::string& path, Draft& draft) {
   const TableReader table(node, path, "walls", draft.scene.fluid.dimension, draft.report);
-  sph::Wall wall{.name = std::to_string(draft.wall_nodes.size()), .container = Box{}, .faces = {}};
+  sph::Wall wall{.name = std::to_string(draft.wall_nodes.size()), .container = Box{Vec3::Zero(), Vec3::Zero()}, .faces = {}};
   table.need("name", "every wall has a name");
   table.read_name("name", wall.name);
   const bool good = table.need("shape", "a box or cylinder round the fluid") &&

@@ -37,7 +37,7 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
                                                         {"structure", Probe::Kind::structure}});
   }
   table.need("point", "give its position in m");
-  table.read("point", probe.point);
+  const bool placed = table.read("point", probe.point);
   const bool in_structure = probe.kind == Probe::Kind::structure;
   const auto& known = in_structure ? structure_quantities : fluid_quantities;
   probe.quantities = known;
@@ -47,6 +47,7 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   check_words(table, "quantities", probe.quantities, known);
   draft.scene.probes.push_back(probe);
   draft.probe_nodes.push_back(&node);
+  draft.probe_good.push_back(placed);
 }
 
 void read_output_table(const TableReader& top, Draft& draft) {

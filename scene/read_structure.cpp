@@ -12,7 +12,7 @@
 namespace undex::scene {
 namespace {
 
-const std::vector<std::string> mesh_types{"tube", "ring", "plate", "gmsh"};
+const std::vector<std::string> mesh_types{"tube", "ring", "plate", "rod", "gmsh"};
 
 int cells_over(double length, double size, int least) {
   return static_cast<int>(std::clamp(std::ceil(length / size - 1e-9), static_cast<double>(least), 1e5));
@@ -20,59 +20,65 @@ int cells_over(double length, double size, int least) {
 
 int rounded_up(int cells, int multiple) { return (cells + multiple - 1) / multiple * multiple; }
 
-void read_cell_size(const TableReader& table, std::optional<double>& size) {
+std::optional<double> read_cell_size(const TableReader& table) {
+  std::optional<double> size;
   table.read("cell_size", size);
   if (table.has("cell_size") && table.has("cells"))
     table.complain("cell_size", table.path_of("cell_size") + " and cells exclude each other; leave out one of them");
+  return size;
 }
 
-/// Counts of the whole tube: from `cells`, or from the size of a cell (by default half the wall).
-void read_tube_cells(const TableReader& table, const Draft& draft, fem::TubeMesh& tube) {
+/// Does a symmetry plane cut the extent in two? Counts of cells are those of the whole, so they must be even then.
+bool is_halved(const Draft& draft, int axis, double low) { return draft.scene.fluid.symmetry.axis[axis] && low < 0; }
+
+/// A count given in `cells`; a multiple of `divisor`.
+void read_count(const TableReader& cells, const char* key, int divisor, const char* why, int& into) {
+  if (cells.read(key, into) && into % divisor != 0)
+    cells.complain(key, cells.path_of(key) + " = " + std::to_string(into) + " must be a multiple of " + std::to_string(divisor) +
+                            why + "; e.g. " + std::to_string(rounded_up(into, divisor)));
+}
+const char* const halved = ": it counts the whole body, which a symmetry plane halves";
+
+/// By default a cell is half the wall.
+void read_cells(const TableReader& table, const Draft& draft, fem::TubeMesh& tube) {
   const double wall = tube.outer_radius - tube.inner_radius;
-  std::optional<double> size;
-  read_cell_size(table, size);
-  const auto& symmetric = draft.scene.fluid.symmetry.axis;
-  int cuts = 1;  // the full turn is divided by two for each plane along the axis
-  for (int a = 0; a < 3; ++a)
-    if (a != tube.axis && symmetric[a]) cuts *= 2;
-  const int halves = symmetric[tube.axis] ? 2 : 1;
-  const double cell = size.value_or(0.5 * wall);
+  const int halves = is_halved(draft, tube.axis, tube.low) ? 2 : 1;
+  const double cell = read_cell_size(table).value_or(0.5 * wall);
   tube.cells_through = cells_over(wall, cell, 2);
   tube.cells_around = rounded_up(cells_over(std::numbers::pi * (tube.inner_radius + tube.outer_radius), cell, 8), 4);
-  tube.cells_along = rounded_up(cells_over(tube.high - tube.low, cell, halves), halves);
+  tube.cells_along = rounded_up(cells_over(tube.high - tube.low, cell, 1), halves);
   const Node* node = table.table("cells");
   if (!node) return;
   const TableReader cells(*node, table.path_of("cells"), "cells.tube", 3, table.report());
   cells.read("through", tube.cells_through);
-  const auto multiple_of = [&](const char* key, int& into, int divisor) {
-    if (cells.read(key, into) && into % divisor != 0)
-      cells.complain(key, cells.path_of(key) + " = " + std::to_string(into) + " counts the whole tube and must be a multiple of " +
-                              std::to_string(divisor) + " with these symmetry planes; e.g. " +
-                              std::to_string(rounded_up(into, divisor)));
-  };
-  multiple_of("around", tube.cells_around, cuts);
-  multiple_of("along", tube.cells_along, halves);
+  read_count(cells, "around", 4, ", so that quarters are alike", tube.cells_around);
+  read_count(cells, "along", halves, halved, tube.cells_along);
 }
 
-void read_plate_cells(const TableReader& table, const Draft& draft, fem::PlateMesh& plate) {
-  const auto& symmetric = draft.scene.fluid.symmetry.axis;
-  std::optional<double> size;
-  read_cell_size(table, size);
+/// By default a cell is a sixth of the radius.
+void read_cells(const TableReader& table, const Draft& draft, fem::RodMesh& rod) {
+  const int halves = is_halved(draft, rod.axis, rod.low) ? 2 : 1;
+  const double cell = read_cell_size(table).value_or(rod.radius / 6);
+  rod.cells_radial = cells_over(rod.radius, cell, 2);
+  rod.cells_along = rounded_up(cells_over(rod.high - rod.low, cell, 1), halves);
+  const Node* node = table.table("cells");
+  if (!node) return;
+  const TableReader cells(*node, table.path_of("cells"), "cells.rod", 3, table.report());
+  cells.read("radial", rod.cells_radial);
+  read_count(cells, "along", halves, halved, rod.cells_along);
+}
+
+/// By default a cell is half the thickness.
+void read_cells(const TableReader& table, const Draft& draft, fem::PlateMesh& plate) {
   const Vec3 extent = plate.high - plate.low;
-  const double cell = size.value_or(0.5 * extent.minCoeff());
-  for (int a = 0; a < 3; ++a) {
-    const bool halved = symmetric[a] && plate.low[a] < 0;
-    plate.cells[a] = rounded_up(cells_over(extent[a], cell, 1), halved ? 2 : 1);
-  }
+  const double cell = read_cell_size(table).value_or(0.5 * extent.minCoeff());
+  const auto halves = [&](int axis) { return is_halved(draft, axis, plate.low[axis]) ? 2 : 1; };
+  for (int a = 0; a < 3; ++a) plate.cells[a] = rounded_up(cells_over(extent[a], cell, 1), halves(a));
   const Node* node = table.table("cells");
   if (!node) return;
   const TableReader cells(*node, table.path_of("cells"), "cells.plate", 3, table.report());
   const char* names[3] = {"x", "y", "z"};
-  for (int a = 0; a < 3; ++a) {
-    const bool halved = symmetric[a] && plate.low[a] < 0;
-    if (cells.read(names[a], plate.cells[a]) && halved && plate.cells[a] % 2 != 0)
-      cells.complain(names[a], cells.path_of(names[a]) + " counts the whole plate and must be even, as a symmetry plane halves it");
-  }
+  for (int a = 0; a < 3; ++a) read_count(cells, names[a], halves(a), halved, plate.cells[a]);
 }
 
 bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
@@ -106,19 +112,24 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
     return true;
   }
   // the geometry is that of a fluid shape of another name
+  const char* kind = type->text == "plate" ? "box" : type->text == "rod" ? "cylinder" : "tube";
   Node as_shape = node;
-  as_shape.find("type")->text = type->text == "plate" ? "box" : "tube";
+  as_shape.find("type")->text = kind;
   Primitive shape = Box{Vec3::Zero(), Vec3::Zero()};
-  if (!read_shape(as_shape, path, 3, {as_shape.find("type")->text}, report, shape)) return false;
+  if (!read_shape(as_shape, path, 3, {kind}, report, shape)) return false;
   if (const auto* box = std::get_if<Box>(&shape)) {
     fem::PlateMesh plate{box->low, box->high};
-    read_plate_cells(table, draft, plate);
+    read_cells(table, draft, plate);
     into = plate;
+  } else if (const auto* c = std::get_if<Cylinder>(&shape)) {
+    fem::RodMesh rod{.axis = c->axis, .center = c->center, .radius = c->radius, .low = c->low, .high = c->high};
+    read_cells(table, draft, rod);
+    into = rod;
   } else {
     const TubeShape& t = std::get<TubeShape>(shape);
     fem::TubeMesh tube{.axis = t.axis, .center = t.center, .inner_radius = t.inner, .outer_radius = t.outer,
                        .low = t.low, .high = t.high};
-    read_tube_cells(table, draft, tube);
+    read_cells(table, draft, tube);
     into = tube;
   }
   return true;
@@ -194,7 +205,7 @@ void read_structure(Draft& draft) {
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
   const std::vector<std::string> faces =
-      draft.structure_shape_good ? structure_faces(structure.mesh) : std::vector<std::string>{};
+      draft.structure_shape_good ? structure_faces(structure.mesh, structure.symmetry_axes) : std::vector<std::string>{};
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
   if (table.read("wet", structure.wet_faces))

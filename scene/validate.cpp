@@ -42,7 +42,8 @@ class Validator {
     overlaps();
     walls();
     structure();
-    for (std::size_t i = 0; i < scene_.probes.size(); ++i) probe(scene_.probes[i], *draft_.probe_nodes[i]);
+    for (std::size_t i = 0; i < scene_.probes.size(); ++i)
+      if (draft_.probe_good[i]) probe(scene_.probes[i], *draft_.probe_nodes[i]);
   }
 
  private:
@@ -242,21 +243,19 @@ class Validator {
     }
   }
 
-  /// Symmetry planes must cut a structure in halves.
+  /// A symmetry plane that meets a structure must halve it.
   void mirrored_structure(const Node& node) {
     const Bounds extent = bounds(*solid_, 3);
     for (const int axis : scene_.structure->symmetry_axes) {
       const double low = extent.low[axis], high = extent.high[axis];
-      const bool plate = std::holds_alternative<Box>(*solid_);
-      if (std::abs(low + high) <= 1e-9 * (high - low) || (plate && low >= 0)) continue;
-      complain(node, "shape", std::string("structure: the symmetry plane across ") + "xyz"[axis] + " at 0 does not halve it (" + rounded(low) +
-                                  " to " + rounded(high) + " m); centre the whole structure on the plane");
+      if (low >= 0 || std::abs(low + high) <= 1e-9 * (high - low)) continue;
+      complain(node, "shape", std::string("structure: the symmetry plane ") + "xyz"[axis] + " = 0 does not halve it (it runs from " +
+                                  rounded(low) + " to " + rounded(high) + " m); centre the whole structure on the plane");
     }
   }
 
   void probe(const Probe& probe, const Node& node) {
     const std::string path = "probes." + probe.name;
-    if (!node.find("point")) return;
     for (int a = 0; a < dimension_; ++a)
       if (fluid_.symmetry.axis[a] && probe.point[a] < -1e-9) {
         complain(node, "point", path + ".point lies at " + "xyz"[a] + " < 0, in the part that the symmetry plane leaves out; mirror it");

@@ -1,7 +1,7 @@
 # Sourced by run_demo.sh and run_tests.sh: packages, configure, build. Not to be run by itself.
 # Gives $root (the project's folder, which becomes the working folder) and build_preset NAME.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-cd "$root"
+cd "$root" || exit 1
 
 # A compiler on deal.II's headers takes about 1.5 GB: no more of them at once than memory holds, nor than there are cores.
 jobs=$(nproc)
@@ -12,10 +12,15 @@ memory_jobs=$(($(awk '/MemAvailable/ {print $2}' /proc/meminfo) / 1500000))
 # build_preset NAME: configures and builds the preset of that name in build/NAME.
 build_preset() {
   echo "== build ($1, $jobs at once)"
-  # Named, so that a Python or compiler of the user's own in PATH does not take over.
-  cmake --preset "$1" -DPython3_EXECUTABLE=/usr/bin/python3 --no-warn-unused-cli >"build-$1.log" 2>&1 ||
-    { cat "build-$1.log"; rm -f "build-$1.log"; echo "configuring preset $1 failed (output above)" >&2; return 1; }
-  rm -f "build-$1.log"
+  local log
+  log=$(mktemp)
+  if ! cmake --preset "$1" >"$log" 2>&1; then
+    cat "$log"
+    rm -f "$log"
+    echo "configuring the preset '$1' failed: cmake's own message stands above" >&2
+    return 1
+  fi
+  rm -f "$log"
   cmake --build --preset "$1" -j "$jobs"
 }
 

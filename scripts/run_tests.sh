@@ -22,7 +22,10 @@ build_preset "$preset"
 # Tests side by side must not also fill every core each.
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
 echo "== tests ($preset)"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
 status=0
-ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error "${select[@]}" || status=$?
-echo "== $(if ((status == 0)); then echo passed; else echo FAILED; fi) after $(elapsed), build included"
+ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error "${select[@]}" | tee "$log" || status=$?
+echo "== build and tests took $(elapsed)"
+grep -a 'tests passed' "$log" | tail -n 1 || true
 exit "$status"

@@ -129,6 +129,21 @@ UNDEX_INLINE void copy_candidates(const PackedParticle* packed, const std::uint3
   }
 }
 
+UNDEX_INLINE void copy_candidates(const PackedGradient* gradients, const std::uint32_t* index, std::uint32_t found,
+                                  double sx, double sy, double sz, PackedGradient* out) {
+  const float fx = float(sx), fy = float(sy), fz = float(sz);
+  for (std::uint32_t k = 0; k < found; ++k) {
+    PackedGradient q = gradients[index[k]];
+    q.strain[3] *= fx * fy;
+    q.strain[4] *= fy * fz;
+    q.strain[5] *= fz * fx;
+    q.pressure[0] *= fx;
+    q.pressure[1] *= fy;
+    q.pressure[2] *= fz;
+    out[k] = q;
+  }
+}
+
 UNDEX_INLINE void copy_candidates(const PackedWall* packed, const std::uint32_t* index, std::uint32_t found, double sx,
                                   double sy, double sz, PackedWall* out) {
   for (std::uint32_t k = 0; k < found; ++k) {

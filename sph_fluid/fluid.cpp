@@ -68,6 +68,7 @@ struct Fluid::Implementation {
   PairLoops loops;
   Particles particles;
   std::vector<PackedParticle> packed;
+  std::vector<PackedGradient> gradients;         // of reconstructing schemes
   std::vector<Group> groups;
   std::vector<GroupView> views;
   std::vector<Cluster> clusters;
@@ -99,7 +100,7 @@ struct Fluid::Implementation {
   long long interaction_sum = 0;
   Clamps clamps;
 
-  explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel)) {
+  explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme)) {
     const int threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
     omp_set_num_threads(threads);
     scratch.resize(std::max(threads, omp_get_max_threads()));
@@ -112,6 +113,8 @@ struct Fluid::Implementation {
     for (Scratch& s : scratch) {
       std::free(s.near);
       std::free(s.variable);
+      std::free(s.near_gradient);
+      std::free(s.variable_gradient);
       std::free(s.wall);
       std::free(s.index);
     }
@@ -124,6 +127,7 @@ struct Fluid::Implementation {
     for (const Body& body : settings.bodies) has_energy = has_energy || materials::uses_energy(body.material.law);
     particles.resize(n, has_energy);
     packed.resize(n);
+    if (loops.needs_gradients) gradients.resize(n);
     std::uint32_t at = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Body& body = settings.bodies[b];
@@ -254,6 +258,7 @@ struct Fluid::Implementation {
       q.p = state.pressure;
       q.c = state.sound_speed;
       q.h = group.h0;
+      q.gas = variable ? 1.0 : 0.0;
       if (variable) {
         const double wanted = std::pow(group.rho_start / q.rho, inverse_dimension);
         held += wanted < low || wanted > high;
@@ -333,6 +338,7 @@ struct Fluid::Implementation {
     for (int a = 0; a < 3; ++a) in.mirror[a] = settings.symmetry.axis[a];
     in.alpha = settings.numerics.alpha;
     in.beta = settings.numerics.beta;
+    in.gradients = gradients.data();
     in.clusters = clusters.data();
     in.cluster_count = std::uint32_t(clusters.size());
     in.scratch = scratch.data();
@@ -637,6 +643,7 @@ std::vector<std::size_t> Fluid::particles_by_body() const {
 std::size_t Fluid::memory_bytes() const {
   const Implementation& s = *self_;
   std::size_t bytes = s.particles.memory_bytes() + s.packed.capacity() * sizeof(PackedParticle) +
+                      s.gradients.capacity() * sizeof(PackedGradient) +
                       s.clusters.capacity() * (sizeof(Cluster) + sizeof(long long)) + s.spare.capacity() * sizeof(double) +
                       s.walls.capacity() * (sizeof(PackedWall) + 6 * sizeof(double) + 8);
   for (const Group& group : s.groups) bytes += group.cells.memory_bytes();

@@ -12,7 +12,15 @@ struct alignas(32) PackedParticle {
   double vx, vy, vz;    ///< velocity predicted for this evaluation [m/s]
   double p, rho, c, V;  ///< pressure [Pa], density, sound speed, volume m/rho [m^3]
   double h;             ///< smoothing length [m]
-  double spare;
+  double gas;           ///< 1: bubble gas or detonation products, 0: liquid
+};
+
+/// Limited reconstruction's raw material: gradients of velocity (its symmetric part, all that the component along a pair
+/// needs: xx, yy, zz, xy, yz, zx) [1/s] and of pressure [Pa/m]. Single precision: they only shape a correction.
+struct alignas(16) PackedGradient {
+  float strain[6];
+  float pressure[3];
+  float spare[3];
 };
 
 /// A dummy particle of a wall.
@@ -54,6 +62,8 @@ struct Cluster {
 struct Scratch {
   PackedParticle* near = nullptr;      ///< candidates with the same constant h
   PackedParticle* variable = nullptr;  ///< candidates of pairs whose h varies
+  PackedGradient* near_gradient = nullptr;      ///< theirs, where the scheme wants them; same capacities
+  PackedGradient* variable_gradient = nullptr;
   PackedWall* wall = nullptr;
   std::uint32_t* index = nullptr;
   std::uint32_t near_capacity = 0, variable_capacity = 0, wall_capacity = 0, index_capacity = 0;
@@ -76,6 +86,7 @@ struct PairInput {
   std::uint32_t wall_count;
   bool mirror[3];                      ///< symmetry planes through the origin
   double alpha, beta;                  ///< Monaghan's viscosity
+  PackedGradient* gradients;           ///< per particle; null where the scheme has no use for them
   const Cluster* clusters;
   std::uint32_t cluster_count;
   Scratch* scratch;                    ///< one per thread

@@ -7,6 +7,8 @@
 #include "sph_fluid/kernels.hpp"
 #include "sph_fluid/monaghan_scheme.hpp"
 #include "sph_fluid/pair_data.hpp"
+#include "sph_fluid/reconstruction.hpp"
+#include "sph_fluid/riemann_scheme.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 namespace {
@@ -66,7 +68,8 @@ struct PairH {
 
 template <class Scheme, class Smoothing>
 UNDEX_INLINE void pairs(const Scheme& scheme, const Smoothing& smoothing, const typename Scheme::Lanes& i,
-                        const PackedParticle* candidates, std::uint32_t count, typename Scheme::Sums& sums, Mask& seen) {
+                        const PackedParticle* candidates, const PackedGradient* gradients, std::uint32_t count,
+                        typename Scheme::Sums& sums, Mask& seen) {
   for (std::uint32_t k = 0; k < count; ++k) {
     const PackedParticle& j = candidates[k];
     const Vec dx = i.x - j.x, dy = i.y - j.y, dz = i.z - j.z;
@@ -74,7 +77,7 @@ UNDEX_INLINE void pairs(const Scheme& scheme, const Smoothing& smoothing, const 
     const Vec h = smoothing.h_of(j);
     const Mask near = smoothing.near(r2, h);
     seen -= near;
-    scheme.pair(i, j, dx, dy, dz, r2, h, smoothing.gradient(r2, h, near), near, sums);
+    scheme.pair(i, j, gradients + k, dx, dy, dz, r2, h, smoothing.gradient(r2, h, near), near, sums);
   }
 }
 
@@ -99,7 +102,7 @@ double reach_of(double h_cluster, const GroupView& own, const GroupView& other) 
 }
 
 /// Fills scratch with the candidates of one cluster. Pairs of constant and equal h go to `near`, others to `variable`.
-template <class Kernel>
+template <class Kernel, bool with_gradients>
 void gather(const PairInput& in, const Cluster& cluster, Scratch& scratch, std::uint32_t& near_count,
             std::uint32_t& variable_count, std::uint32_t& wall_count) {
   const GroupView& own = in.groups[cluster.group];
@@ -125,6 +128,9 @@ void gather(const PairInput& in, const Cluster& cluster, Scratch& scratch, std::
       if (!constant && count + found > scratch.variable_capacity) grow_variable(scratch, count + found);
       copy_candidates(in.packed, scratch.index, found, sx, sy, sz,
                       (constant ? scratch.near : scratch.variable) + count);
+      if constexpr (with_gradients)
+        copy_candidates(in.gradients, scratch.index, found, sx, sy, sz,
+                        (constant ? scratch.near_gradient : scratch.variable_gradient) + count);
       count += found;
     });
   }
@@ -144,20 +150,40 @@ template <class Kernel, class Scheme>
 void cluster_rates(const PairInput& in, const Scheme& scheme, const Cluster& cluster, Scratch& scratch,
                    const FluidRates& out, long long& interactions) {
   std::uint32_t near_count, variable_count, wall_count;
-  gather<Kernel>(in, cluster, scratch, near_count, variable_count, wall_count);
+  gather<Kernel, Scheme::needs_gradients>(in, cluster, scratch, near_count, variable_count, wall_count);
   const GroupView& own = in.groups[cluster.group];
   const double norm = Kernel::norm(in.dimension);
-  const typename Scheme::Lanes i = Scheme::load(in.packed + cluster.begin, cluster.count);
+  const typename Scheme::Lanes i = Scheme::load(in.packed + cluster.begin, in.gradients + cluster.begin, cluster.count);
   const PairH<Kernel> pair_h{i.h, norm, in.dimension};
   typename Scheme::Sums sums;
   Mask seen{};
   if (near_count > 0)
-    pairs(scheme, ConstantH<Kernel>(own.h_max, norm, in.dimension), i, scratch.near, near_count, sums, seen);
-  if (variable_count > 0) pairs(scheme, pair_h, i, scratch.variable, variable_count, sums, seen);
+    pairs(scheme, ConstantH<Kernel>(own.h_max, norm, in.dimension), i, scratch.near, scratch.near_gradient, near_count,
+          sums, seen);
+  if (variable_count > 0)
+    pairs(scheme, pair_h, i, scratch.variable, scratch.variable_gradient, variable_count, sums, seen);
   if (wall_count > 0) walls(scheme, pair_h, i, scratch.wall, wall_count, sums, seen);
-  Scheme::store(sums, cluster.begin, cluster.count, out);
+  store_fluid(sums, cluster.begin, cluster.count, out);
   interactions = -std::int64_t(cluster.count);  // a particle is not its own neighbour
   for (int l = 0; l < cluster.count; ++l) interactions += seen[l];
+}
+
+/// Pass before a reconstructing scheme: gradients of one cluster's particles.
+template <class Kernel>
+void cluster_gradients(const PairInput& in, const Reconstruction& gradients, const Cluster& cluster, Scratch& scratch) {
+  std::uint32_t near_count, variable_count, wall_count;
+  gather<Kernel, false>(in, cluster, scratch, near_count, variable_count, wall_count);
+  const double norm = Kernel::norm(in.dimension);
+  const Reconstruction::Lanes i = Reconstruction::load(in.packed + cluster.begin, nullptr, cluster.count);
+  const PairH<Kernel> pair_h{i.h, norm, in.dimension};
+  Reconstruction::Sums sums;
+  Mask seen{};
+  if (near_count > 0)
+    pairs(gradients, ConstantH<Kernel>(in.groups[cluster.group].h_max, norm, in.dimension), i, scratch.near, nullptr,
+          near_count, sums, seen);
+  if (variable_count > 0) pairs(gradients, pair_h, i, scratch.variable, nullptr, variable_count, sums, seen);
+  if (wall_count > 0) walls(gradients, pair_h, i, scratch.wall, wall_count, sums, seen);
+  gradients.store(sums, in.gradients + cluster.begin, cluster.count);
 }
 
 template <class Kernel, class Scheme>
@@ -165,8 +191,8 @@ void cluster_wall_forces(const PairInput& in, const Scheme& scheme, const Cluste
                          const WallForces& out) {
   const Box3 box = box_of(in.wall_x, in.wall_y, in.wall_z, cluster.begin, cluster.count);
   const double norm = Kernel::norm(in.dimension);
-  const typename Scheme::WallLanes w = Scheme::load(in.walls + cluster.begin, cluster.count);
-  typename Scheme::WallSums sums;
+  const WallLanes w = load_walls(in.walls + cluster.begin, cluster.count);
+  WallSums sums;
   for (int g = 0; g < in.group_count; ++g) {
     const double reach = Kernel::support * in.groups[g].h_max;
     for_each_image(in.mirror, box, reach, [&](double sx, double sy, double sz, const Box3& seen_box) {
@@ -184,30 +210,39 @@ void cluster_wall_forces(const PairInput& in, const Scheme& scheme, const Cluste
       }
     });
   }
-  Scheme::store(sums, cluster.begin, cluster.count, out);
+  store_walls(sums, cluster.begin, cluster.count, out);
 }
 
 }  // namespace
 
-template <class Kernel>
+template <class Kernel, class Scheme>
 void fluid_rates(const PairInput& in, const FluidRates& out) {
-  const Monaghan scheme{in.alpha, in.beta};
+  if constexpr (Scheme::needs_gradients) {
+    const Reconstruction gradients{in.dimension};
+#pragma omp parallel for schedule(dynamic, 16)
+    for (std::uint32_t k = 0; k < in.cluster_count; ++k)
+      cluster_gradients<Kernel>(in, gradients, in.clusters[k], in.scratch[omp_get_thread_num()]);
+  }
+  const Scheme scheme(in);
 #pragma omp parallel for schedule(dynamic, 16)
   for (std::uint32_t k = 0; k < in.cluster_count; ++k)
     cluster_rates<Kernel>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out, out.interactions[k]);
 }
 
-template <class Kernel>
+template <class Kernel, class Scheme>
 void wall_forces(const PairInput& in, const Cluster* clusters, std::uint32_t count, const WallForces& out) {
-  const Monaghan scheme{in.alpha, in.beta};
+  const Scheme scheme(in);
 #pragma omp parallel for schedule(dynamic, 16)
   for (std::uint32_t k = 0; k < count; ++k)
     cluster_wall_forces<Kernel>(in, scheme, clusters[k], in.scratch[omp_get_thread_num()], out);
 }
 
-template void fluid_rates<Gaussian>(const PairInput&, const FluidRates&);
-template void fluid_rates<WendlandC2>(const PairInput&, const FluidRates&);
-template void wall_forces<Gaussian>(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);
-template void wall_forces<WendlandC2>(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);
+#define UNDEX_INSTANTIATE(Kernel, Scheme)                                   \
+  template void fluid_rates<Kernel, Scheme>(const PairInput&, const FluidRates&); \
+  template void wall_forces<Kernel, Scheme>(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);
+UNDEX_INSTANTIATE(Gaussian, Monaghan)
+UNDEX_INSTANTIATE(WendlandC2, Monaghan)
+UNDEX_INSTANTIATE(Gaussian, Riemann)
+UNDEX_INSTANTIATE(WendlandC2, Riemann)
 
 }  // namespace undex::sph::UNDEX_LEVEL

@@ -8,19 +8,25 @@
 
 namespace undex::sph {
 
-#define UNDEX_DECLARE_LEVEL(level)                                                                          \
-  namespace level {                                                                                         \
-  template <class Kernel>                                                                                   \
-  void fluid_rates(const PairInput&, const FluidRates&);                                                    \
-  template <class Kernel>                                                                                   \
-  void wall_forces(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);                     \
-  template <class Kernel>                                                                                   \
-  PairLoops loops(const char* name, int lanes) {                                                            \
-    return {name, lanes, &fluid_rates<Kernel>, &wall_forces<Kernel>};                                       \
-  }                                                                                                         \
-  PairLoops loops(KernelName kernel, const char* name, int lanes) {                                         \
-    return kernel == KernelName::gaussian ? loops<Gaussian>(name, lanes) : loops<WendlandC2>(name, lanes); \
-  }                                                                                                         \
+// The schemes' definitions stay with the loops; here their names are enough.
+#define UNDEX_DECLARE_LEVEL(level)                                                                              \
+  namespace level {                                                                                             \
+  struct Monaghan;                                                                                              \
+  struct Riemann;                                                                                               \
+  template <class Kernel, class Scheme>                                                                         \
+  void fluid_rates(const PairInput&, const FluidRates&);                                                        \
+  template <class Kernel, class Scheme>                                                                         \
+  void wall_forces(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);                         \
+  template <class Kernel>                                                                                       \
+  PairLoops loops(SchemeName scheme, const char* name, int lanes) {                                             \
+    if (scheme == SchemeName::riemann)                                                                          \
+      return {name, lanes, true, &fluid_rates<Kernel, Riemann>, &wall_forces<Kernel, Riemann>};                 \
+    return {name, lanes, false, &fluid_rates<Kernel, Monaghan>, &wall_forces<Kernel, Monaghan>};                \
+  }                                                                                                             \
+  PairLoops loops(KernelName kernel, SchemeName scheme, const char* name, int lanes) {                          \
+    return kernel == KernelName::gaussian ? loops<Gaussian>(scheme, name, lanes)                                \
+                                          : loops<WendlandC2>(scheme, name, lanes);                             \
+  }                                                                                                             \
   }
 
 UNDEX_DECLARE_LEVEL(v4)
@@ -57,19 +63,27 @@ void grow(T*& data, std::uint32_t& capacity, std::uint32_t needed) {
 
 }  // namespace
 
-void grow_near(Scratch& s, std::uint32_t needed) { grow(s.near, s.near_capacity, needed); }
-void grow_variable(Scratch& s, std::uint32_t needed) { grow(s.variable, s.variable_capacity, needed); }
+void grow_near(Scratch& s, std::uint32_t needed) {
+  std::uint32_t same = s.near_capacity;
+  grow(s.near_gradient, same, needed);
+  grow(s.near, s.near_capacity, needed);
+}
+void grow_variable(Scratch& s, std::uint32_t needed) {
+  std::uint32_t same = s.variable_capacity;
+  grow(s.variable_gradient, same, needed);
+  grow(s.variable, s.variable_capacity, needed);
+}
 void grow_wall(Scratch& s, std::uint32_t needed) { grow(s.wall, s.wall_capacity, needed); }
 void grow_index(Scratch& s, std::uint32_t needed) { grow(s.index, s.index_capacity, needed); }
 
-PairLoops pair_loops(KernelName kernel) {
+PairLoops pair_loops(KernelName kernel, SchemeName scheme) {
   switch (machine_level()) {
-    case 4: return v4::loops(kernel, "x86-64-v4", 8);
-    case 3: return v3::loops(kernel, "x86-64-v3", 4);
-    default: return v2::loops(kernel, "x86-64-v2", 2);
+    case 4: return v4::loops(kernel, scheme, "x86-64-v4", 8);
+    case 3: return v3::loops(kernel, scheme, "x86-64-v3", 4);
+    default: return v2::loops(kernel, scheme, "x86-64-v2", 2);
   }
 }
 
-const char* cpu_level() { return pair_loops(KernelName::wendland_c2).cpu_level; }
+const char* cpu_level() { return pair_loops(KernelName::wendland_c2, SchemeName::monaghan).cpu_level; }
 
 }  // namespace undex::sph

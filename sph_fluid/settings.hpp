@@ -15,6 +15,11 @@ namespace undex::sph {
 
 enum class KernelName { gaussian, wendland_c2 };
 
+enum class SchemeName {
+  monaghan,  ///< artificial viscosity (Chen et al. 2019, eqs 5, 6)
+  riemann,   ///< limited linear reconstruction and an acoustic Riemann flux per pair
+};
+
 /// What a wall does to the flow along it.
 enum class FaceCondition { no_slip, free_slip, open };
 
@@ -66,6 +71,7 @@ struct Symmetry {
 /// Artificial viscosity and steps.
 struct Numerics {
   KernelName kernel = KernelName::wendland_c2;
+  SchemeName scheme = SchemeName::monaghan;
   double eta = 1.5;           ///< h/dx
   double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6)
   double beta = 10.0;         ///< and the quadratic one

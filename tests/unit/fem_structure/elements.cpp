@@ -66,7 +66,7 @@ TEST(Elements, LinearDisplacementGivesUniformStressAndNoForceInside) {
     Mat3 slope;
     slope << 0.3, -0.7, 0.2, 0.5, 0.9, -0.1, 0.4, 0.6, -0.8;
     slope *= size;
-    Moved at{grid.nodes, Nodes(grid.nodes.size())};
+    Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
     move(elements, grid, at, [&](const Vec3& x) { return Vec3(x + slope * x); });
     const Mat3 first = elements.stress(0, 0);
     for (std::size_t c = 0; c < grid.cells.size(); ++c)
@@ -89,7 +89,7 @@ TEST(Elements, LinearDisplacementGivesUniformStressAndNoForceInside) {
 TEST(Elements, RigidMotionMakesNoStress) {
   const Grid grid = distorted_block({2, 2, 2}, 0.15);
   Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.06, 1.2);
-  Moved at{grid.nodes, Nodes(grid.nodes.size())};
+  Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
   const int steps = 400;
   for (int step = 1; step <= steps; ++step)  // three turns, a hundred cell sizes away
     move(elements, grid, at, [&](const Vec3& x) {
@@ -106,7 +106,7 @@ TEST(Elements, RigidMotionMakesNoStress) {
 TEST(Elements, StressTurnsWithTheBody) {
   const Grid grid = distorted_block({2, 2, 2}, 0.15);
   Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.0, 0.0);
-  Moved at{grid.nodes, Nodes(grid.nodes.size())};
+  Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
   const auto strained = [](const Vec3& x) { return Vec3(x[0] + 0.02 * x[1] + 0.01 * x[0] * x[2], x[1] * 1.01, x[2] - 0.01 * x[0]); };
   move(elements, grid, at, strained);
   std::vector<Mat3> before;
@@ -127,7 +127,7 @@ TEST(Elements, ForceIsTheDerivativeOfTheWork) {
   // The energy of a small closed loop of displacements is zero, and its work equals force times displacement.
   const Grid grid = distorted_block({2, 1, 1}, 0.1);
   Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.0, 0.0);
-  Moved at{grid.nodes, Nodes(grid.nodes.size())};
+  Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
   double work = 0.0;
   const int steps = 200;
   const auto shape = [](const Vec3& x) { return Vec3(0.3 * x[1] * x[2], std::sin(x[0]), 0.2 * x[0] * x[0] - x[1]); };
@@ -209,7 +209,7 @@ TEST(Elements, StableStepIsSafeForAnAssembly) {
 TEST(Elements, StableStepFollowsTheStrainedCells) {
   const Grid grid = distorted_block({2, 2, 2}, 0.1);
   Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.0, 0.0);
-  Moved at{grid.nodes, Nodes(grid.nodes.size())};
+  Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
   for (int step = 1; step <= 150; ++step) {
     move(elements, grid, at, [&](const Vec3& x) { return Vec3(x[0] * (1 - 0.003 * step), x[1], x[2] + 0.002 * step * x[1]); });
     if (step % 15) continue;

@@ -1,0 +1,99 @@
+// Reading a scene: document, overrides, tables, checks; all that was found is thrown together.
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "scene/document.hpp"
+#include "scene/draft.hpp"
+#include "scene/overrides.hpp"
+#include "scene/table_reader.hpp"
+
+namespace undex::scene {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream) text << stream.rdbuf();
+  if (!stream) throw FileError(file.string() + ": cannot be read; check that it exists and that you may read it");
+  return text.str();
+}
+
+std::filesystem::path scene_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    if (!std::filesystem::is_regular_file(path / "case.toml", ignored))
+      throw FileError(path.string() + ": the folder holds no case.toml; name a scene file or a folder with one");
+    return path / "case.toml";
+  }
+  if (!std::filesystem::exists(path, ignored))
+    throw FileError(path.string() + ": no such scene; name a .toml file or a folder with case.toml ('undex list' shows the scenes shipped)");
+  return path;
+}
+
+/// The folder of a case.toml, else the file without its ending; only what a name may hold.
+std::string name_of(const std::filesystem::path& file) {
+  const std::filesystem::path full = std::filesystem::absolute(file).lexically_normal();
+  std::string name = full.filename() == "case.toml" ? full.parent_path().filename().string() : full.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name.empty() ? "scene" : name.substr(0, 100);
+}
+
+void read_top(Draft& draft) {
+  Scene& scene = draft.scene;
+  {
+    Report aside;  // the dimension decides how the rest is read, so it comes first
+    const TableReader table(draft.root, "", "", 3, aside);
+    int dimension = 3;
+    if (table.has("dimension")) draft.dimension_good = table.read("dimension", dimension);
+    scene.fluid.dimension = dimension;
+  }
+  const TableReader table(draft.root, "", "", scene.fluid.dimension, draft.report);
+  table.read("dimension", scene.fluid.dimension);
+  table.read_name("name", scene.name);
+  scene.title = scene.name;
+  table.read("title", scene.title);
+  table.need("end_time", "give it in s, e.g. end_time = 1e-4");
+  table.read("end_time", scene.end_time);
+  table.read("threads", scene.fluid.numerics.threads);
+  table.read("deterministic", scene.deterministic);
+}
+
+/// Each mistake once: a material that two bodies use is read twice.
+std::vector<Finding> without_repetitions(const std::vector<Finding>& findings) {
+  std::set<std::tuple<int, int, std::string>> seen;
+  std::vector<Finding> once;
+  for (const Finding& finding : findings)
+    if (seen.emplace(finding.where.line, finding.where.column, finding.message).second) once.push_back(finding);
+  return once;
+}
+
+}  // namespace
+
+std::string element_path(const char* list, const Node& element, std::size_t index) {
+  const Node* name = element.find("name");
+  const bool named = name && name->kind == Node::Kind::text && !name->text.empty() && name->text.size() <= 100;
+  return std::string(list) + '.' + (named ? name->text : std::to_string(index));
+}
+
+Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+  const std::filesystem::path file = scene_file(path);
+  Draft draft;
+  draft.root = parse_toml(read_text(file), file.string());
+  draft.scene.file = file;
+  draft.scene.name = name_of(file);
+  apply(overrides, draft.root, draft.report);
+  read_top(draft);
+  read_own_materials(draft);
+  read_fluid(draft);
+  read_structure(draft);
+  read_output(draft);
+  validate(draft);
+  if (!draft.report.empty()) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
+  return std::move(draft.scene);
+}
+
+}  // namespace undex::scene

@@ -1,0 +1,482 @@
+#!/usr/bin/python3
+"""Pictures of a finished (or running) undex run: histories against the references, the mid-plane's pressure, the energies.
+
+Usage: /usr/bin/python3 scripts/plot.py DIR [--reference FOLDER] [--times 15,30,...] [--dpi N]
+
+Reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part and fields/structure_*.hdf as far
+as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py (Debian's own).
+"""
+import argparse
+import csv
+import json
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+try:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.collections import EllipseCollection, PolyCollection
+except ImportError as error:
+    sys.exit(f"plot.py: {error}. Run scripts/install_packages.sh, and this script with /usr/bin/python3 "
+             f"(this is {sys.executable}).")
+
+PROJECT = Path(__file__).resolve().parent.parent
+REFERENCE = {"rigid_cylinder": PROJECT / "cases/rigid_cylinder/reference",
+             "tube": PROJECT / "cases/al_tube_fem/reference"}
+PAPER_TIMES = [15, 30, 45, 60, 75, 90, 105, 120]  # us, of the paper's pressure pictures
+CAVITATED = 1e-4  # void fraction above which a particle counts as cavitated
+
+
+class Missing(Exception):
+    """Something that a picture needs is not there; the message says what and where."""
+
+
+# ---------------------------------------------------------------------------------------------------- reading
+
+def read_history(path):
+    """Columns of a CSV history by name without unit, e.g. {"time": ..., "pressure": ...}; # lines are comments."""
+    with open(path, newline="") as file:
+        rows = [row for row in csv.reader(line for line in file if not line.startswith("#")) if row]
+    if len(rows) < 2:
+        raise Missing(f"{path}: no samples")
+    names = [re.sub(r"\s*\[.*\]$", "", cell).strip() for cell in rows[0]]
+    complete = [row for row in rows[1:] if len(row) == len(names)]  # the last row of a running one may be cut
+    try:
+        values = np.array(complete, dtype=float)
+    except ValueError as error:
+        raise Missing(f"{path}: not a history: {error}") from error
+    return {name: values[:, i] for i, name in enumerate(names)}
+
+
+def read_reference_table(path):
+    """Rows of a reference table: (sources, {metric: (scale, [value or nan per source])})."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(line for line in file if not line.startswith("#")))
+    number = lambda cell: float(cell.split("+-")[0]) if cell.strip() else float("nan")
+    return rows[0][4:], {row[0]: (float(row[3]), [number(cell) for cell in row[4:]]) for row in rows[1:] if row}
+
+
+class Run:
+    """What a run left in its folder."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not self.folder.is_dir():
+            raise Missing(f"{folder}: no such folder; give the output folder of a run (undex run ... -o DIR)")
+        summary = self.folder / "summary.json"
+        self.summary = json.loads(summary.read_text()) if summary.is_file() else {}
+        if not self.summary:
+            print(f"plot.py: {summary} is missing: the run is not finished, or this is not a run's folder")
+        resolved = self.folder / "resolved.toml"
+        self.scene = tomllib.loads(resolved.read_text()) if resolved.is_file() else {}
+        self.histories = {}
+        for path in sorted((self.folder / "history").glob("*.csv")):
+            try:
+                self.histories[path.stem] = read_history(path)
+            except Missing as error:
+                print(f"plot.py: {error}; left out")
+        self.name = self.summary.get("scene") or self.scene.get("name") or self.folder.name
+        if not (self.summary or self.scene or self.histories):
+            raise Missing(f"{folder}: no summary.json, resolved.toml or history/*.csv here; give the output folder of a run")
+
+    def setting(self, key, default=None):
+        """A value of resolved.toml by its dotted key."""
+        value = self.scene
+        for part in key.split("."):
+            if not isinstance(value, dict) or part not in value:
+                return default
+            value = value[part]
+        return value
+
+    @property
+    def kind(self):
+        """Which comparison this is: "rigid_cylinder", "tube" or None."""
+        kind = self.setting("comparison.kind")
+        if kind in REFERENCE:
+            return kind
+        if kind is None and "rigid_cylinder" in self.name:
+            return "rigid_cylinder"
+        return "tube" if kind is None and "tube" in self.name and "1d" not in self.name else None
+
+    def history_with(self, column):
+        """The history that the comparison is about: the named probe, else the first with such a column."""
+        probe = self.setting("comparison.probe")
+        candidates = [probe] if probe in self.histories else []
+        for name in candidates + list(self.histories):
+            if any(key.startswith(column) for key in self.histories[name]):
+                return self.histories[name]
+        raise Missing(f"{self.folder}/history: no CSV has a column '{column}'; add a probe with it to the scene")
+
+    def title(self):
+        parts = [self.name]
+        spacing = self.setting("resolution.spacing")
+        if spacing:
+            parts.append(f"spacing {1e3 * spacing:g} mm")
+        if self.summary.get("particles"):
+            parts.append(f"{self.summary['particles']:,} particles")
+        return ", ".join(parts)
+
+
+# ------------------------------------------------------------------------------------------- histories
+
+def plot_all_histories(run):
+    """Every probe, one panel per quantity: what the run recorded, without comment."""
+    panels = {}
+    for name, history in run.histories.items():
+        for column, values in history.items():
+            if column != "time":
+                panels.setdefault(column, []).append((name, history["time"], values))
+    if not panels:
+        raise Missing(f"{run.folder}/history: no histories")
+    columns = min(3, len(panels))
+    rows = -(-len(panels) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(5 * columns, 3 * rows), squeeze=False)
+    for axis in axes.flat[len(panels):]:
+        axis.remove()
+    for axis, (column, curves) in zip(axes.flat, panels.items()):
+        for name, time, values in curves:
+            axis.plot(1e6 * time, values, lw=1, label=name)
+        axis.set(xlabel="time [µs]", title=column)
+        if len(panels) == 1 or len(curves) > 1 or len(run.histories) > 1:
+            axis.legend(fontsize=7)
+        axis.grid(alpha=0.3)
+    figure.suptitle(run.title())
+    return figure
+
+
+def plot_rigid_cylinder(run, reference):
+    history = run.history_with("pressure")
+    exact = read_history(reference / "midline_wall_pressure.csv")
+    sources, table = read_reference_table(reference / "metrics.csv")
+    figure, axis = plt.subplots(figsize=(9, 5))
+    column = next(key for key in exact if key != "time")
+    axis.plot(1e6 * exact["time"], 1e-9 * exact[column], color="0.45", lw=1.2, label="converged (independent mesh code)")
+    axis.plot(1e6 * history["time"], 1e-9 * history["pressure"], color="C0", lw=1.4, label="this run")
+    if "paper SPH 1 mm" in sources:
+        paper = {metric: values[sources.index("paper SPH 1 mm")] for metric, (_, values) in table.items()}
+        points = [(paper["first_peak_time_s"], paper["first_peak_pa"]), (paper["cavitation_s"], 0),
+                  (paper["collapse_s"], 0), (paper["second_peak_time_s"], paper["second_peak_5us_pa"]),
+                  (paper["second_cavitation_s"], 0)]
+        axis.plot(*zip(*points), "s", color="C3", mfc="none", ms=7, clip_on=False, label="paper's SPH, key points")
+    axis.set(xlim=(0, max(1e6 * history["time"][-1], 20)), ylim=(-0.02, None), xlabel="time [µs]",
+             ylabel="wall pressure at mid-height [GPa]", title=run.title())
+    axis.grid(alpha=0.3)
+    axis.legend()
+    return figure
+
+
+# Colour, marker, line and label of each source in the tube's plots.
+TUBE_STYLE = {"converged Tait": dict(color="k", ls="-", marker="."), "converged MG": dict(color="0.5", ls="-", marker="."),
+              "experiment": dict(color="C3", ls="", marker="o"), "hydrocode": dict(color="C2", ls="--", marker="^"),
+              "expt. as paper": dict(color="C3", ls="", marker="x"), "paper Tait": dict(color="C1", ls=":", marker="s"),
+              "paper MG": dict(color="C4", ls=":", marker="D")}
+
+
+def largest_component(history, quantity):
+    """Time and the component of a vector quantity that moves most, counted positive outwards (as it first moves)."""
+    columns = [key for key in history if key == quantity or re.fullmatch(quantity + "_[xyz]", key)]
+    best = max(columns, key=lambda key: np.abs(history[key]).max())
+    values = history[best]
+    return history["time"], values * (np.sign(values[np.abs(values).argmax()]) or 1), best[len(quantity):]
+
+
+def plot_tube(run, reference):
+    sources, table = read_reference_table(reference / "displacement.csv")
+    wall = run.history_with("displacement")
+    time, displacement, direction = largest_component(wall, "displacement")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 5.2))
+    left.plot(1e6 * time, 1e3 * displacement, color="C0", lw=2, label="this run", zorder=5)
+    velocity = "velocity" + direction
+    if velocity in wall:
+        sign = np.sign(wall["displacement" + direction][np.abs(wall["displacement" + direction]).argmax()]) or 1
+        right.plot(1e6 * time, sign * wall[velocity], color="C0", lw=2, label="this run", zorder=5)
+    else:
+        right.plot(1e6 * time, np.gradient(displacement, time), color="C0", lw=1, label="this run (slope)", zorder=5)
+    for axis, pattern in ((left, r"displacement_(\d+)us_m"), (right, r"wall_velocity_(\d+)us_m_s")):
+        for i, source in enumerate(sources):
+            points = [(float(match[1]), values[i]) for metric, (_, values) in table.items()
+                      if (match := re.fullmatch(pattern, metric)) and not np.isnan(values[i])]
+            if points:
+                axis.plot(*zip(*sorted(points)), label=source, ms=5, lw=1, **TUBE_STYLE.get(source, dict(marker=".")))
+    end = max(1e6 * time[-1], 30)
+    left.set(ylabel="outward displacement, mid-length [mm]", xlim=(0, 1.05 * end), ylim=(0, None))
+    right.set(ylabel="wall velocity, mid-length [m/s]", xlim=(0, 1.05 * end))
+    for axis in (left, right):
+        axis.set_xlabel("time [µs]")
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    figure.suptitle(run.title())
+    return figure
+
+
+# ------------------------------------------------------------------------------------------- energies
+
+def plot_energy(run):
+    path = run.folder / "energy.csv"
+    if not path.is_file():
+        raise Missing(f"{path}: missing")
+    energy = read_history(path)
+    time = energy.pop("time")
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(9, 7), sharex=True, height_ratios=[3, 1])
+    total = energy.get("total")
+    errors = {name: energy.pop(name) for name in list(energy) if "error" in name}
+    with open(path) as file:
+        header = next(line for line in file if not line.startswith("#"))
+    for name in errors:  # relative to the start's total, whether the file says so or gives joules
+        if f"{name} [J]" in header and total is not None and total[0] != 0:
+            errors[name] = errors[name] / abs(total[0])
+    for name, values in energy.items():
+        if np.any(values != 0):
+            upper.plot(1e6 * time, 1e-3 * values, lw=2 if name == "total" else 1.2,
+                       color="k" if name == "total" else None, label=name.replace("_", " "))
+    upper.set(ylabel="energy [kJ]", title=run.title())
+    upper.legend(fontsize=8, ncol=2)
+    upper.grid(alpha=0.3)
+    for name, values in errors.items():
+        lower.plot(1e6 * time, 100 * values, lw=1, label=name.replace("_", " "))
+    if not errors and total is not None and total[0] != 0:
+        lower.plot(1e6 * time, 100 * (total / total[0] - 1), lw=1, label="total, change")
+    lower.set(xlabel="time [µs]", ylabel="error [%]")
+    if lower.lines:
+        lower.legend(fontsize=8)
+    lower.grid(alpha=0.3)
+    return figure
+
+
+# ------------------------------------------------------------------------------------------- mid-plane
+
+AXES = "xyz"
+
+
+def symmetric_axes(run, low, spacing):
+    """Axes across which the computed part must be mirrored: what the scene says, else where nothing is below zero."""
+    planes = run.setting("symmetry.planes")
+    if planes is not None:
+        return {AXES.index(p) if isinstance(p, str) else int(p) for p in planes}
+    return {d for d in range(3) if low[d] > -0.1 * spacing}
+
+
+def mirrored(points, values, axes, plane_axes):
+    """Copies of 2D points (n, 2) and their values across each mirrored axis of the plane."""
+    for k, axis in enumerate(plane_axes):
+        if axis in axes:
+            flipped = points.copy()
+            flipped[:, k] *= -1
+            points, values = np.concatenate([points, flipped]), [np.concatenate([v, v]) for v in values]
+    return points, values
+
+
+def structure_sections(folder):
+    """Times and files of the structure's snapshots, by the index."""
+    index = folder / "structure.hdf.series"
+    if not index.is_file():
+        return []
+    return [(entry["time"], folder / entry["name"]) for entry in json.loads(index.read_text())["files"]]
+
+
+def structure_polygons(path, normal, plane_axes, mirror):
+    """The cells of a structure that the plane through the origin cuts (or touches), as quadrilaterals in the plane."""
+    import h5py
+
+    # Edges of a VTK hexahedron.
+    edges = np.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)])
+    with h5py.File(path) as file:
+        points = file["VTKHDF/Points"][:].astype(float)
+        cells = file["VTKHDF/Connectivity"][:].reshape(-1, 8)
+    height = points[:, normal]
+    size = np.ptp(height[cells], axis=1)
+    low, high = height[cells].min(axis=1), height[cells].max(axis=1)
+    # On a symmetry plane the first layer only touches it: cut a little way in.
+    level = 1e-3 * np.median(size)
+    polygons = []
+    for cell in cells[(low <= level) & (high > level)]:
+        a, b = cell[edges[:, 0]], cell[edges[:, 1]]
+        crossed = (height[a] <= level) != (height[b] <= level)
+        if crossed.sum() < 3:
+            continue
+        a, b = a[crossed], b[crossed]
+        share = ((level - height[a]) / (height[b] - height[a]))[:, None]
+        corners = (points[a] + share * (points[b] - points[a]))[:, plane_axes]
+        middle = corners.mean(axis=0)
+        order = np.argsort(np.arctan2(*(corners - middle).T))
+        polygons.append(corners[order])
+    for k, axis in enumerate(plane_axes):
+        if axis in mirror:
+            sign = np.ones(2)
+            sign[k] = -1
+            polygons += [polygon * sign for polygon in polygons]
+    return polygons
+
+
+def particle_sizes(step, spacing, count):
+    """Diameter of the disc that stands for each particle: its volume's cube root where mass and density tell it."""
+    if "mass" in step and "density" in step:
+        volume = step["mass"][:] / np.maximum(step["density"][:], 1e-12)
+        size = np.cbrt(volume)
+        # A particle on an octant's plane keeps its whole mass, so the sizes need no correction.
+        return np.clip(size, 0.5 * spacing, 6 * spacing)
+    if "smoothing_length" in step:
+        h = step["smoothing_length"][:]
+        return spacing * h / np.median(h)
+    return np.full(count, spacing)
+
+
+def nearest(times, wanted):
+    """Indices of the snapshots nearest to the wanted times, each once, none further off than half the gap asked for.
+    Where no times are wanted, or none is met: up to eight, evenly spread."""
+    times = np.asarray(times)
+    chosen = []
+    slack = 0.5 * min(np.diff(wanted)) if len(wanted) > 1 else np.inf
+    for time in wanted:
+        i = int(np.abs(times - time).argmin())
+        if abs(times[i] - time) <= slack and i not in chosen:
+            chosen.append(i)
+    return chosen or sorted({int(i) for i in np.linspace(0, len(times) - 1, min(8, len(times)))})
+
+
+def plot_profiles(run, file, steps, times, wanted_us):
+    """One-dimensional scenes: pressure along x."""
+    figure, axis = plt.subplots(figsize=(9, 5))
+    for i in nearest(times, [1e-6 * t for t in wanted_us]):
+        order = np.argsort(file[steps[i]]["x"][:])
+        axis.plot(1e3 * file[steps[i]]["x"][:][order], 1e-6 * file[steps[i]]["pressure"][:][order], lw=1,
+                  label=f"{1e6 * times[i]:.1f} µs")
+    axis.set(xlabel="x [mm]", ylabel="pressure [MPa]", title=run.title())
+    axis.legend(fontsize=8)
+    axis.grid(alpha=0.3)
+    return figure
+
+
+def plot_mid_plane(run, wanted_us):
+    path = run.folder / "fields/particles.h5part"
+    if not path.is_file():
+        raise Missing(f"{path}: missing; ask for field snapshots in the scene's [output]")
+    import h5py
+
+    with h5py.File(path) as file:
+        steps = sorted((name for name in file if re.fullmatch(r"Step#\d+", name)), key=lambda name: int(name[5:]))
+        if not steps:
+            raise Missing(f"{path}: no snapshots in it yet")
+        times = [float(np.ravel(file[name].attrs["TimeValue"])[0]) for name in steps]
+        first = file[steps[0]]
+        position = np.stack([first[axis][:] for axis in AXES], axis=1)
+        low, high = position.min(axis=0), position.max(axis=0)
+        spacing = run.setting("resolution.spacing")
+        if not spacing:
+            sides = (high - low)[high > low]
+            spacing = float((np.prod(sides) / len(position)) ** (1 / max(len(sides), 1)))
+        mirror = {d for d in symmetric_axes(run, low, spacing) if high[d] > low[d]}
+        extent = np.where([d in mirror for d in range(3)], 2 * high, high - low)
+        dimension = int((extent > 1e-9 * extent.max()).sum())
+        if dimension < 2:
+            return plot_profiles(run, file, steps, times, wanted_us)
+        # The section contains the longest axis (a tube's own) and x, or y where x is that axis; a plane scene is its own.
+        length = int(extent.argmax())
+        across = 0 if length != 0 else 1
+        if dimension == 2:
+            across = ({0, 1, 2} - {length, int(extent.argmin())}).pop()
+        normal = 3 - length - across
+        plane = (length, across)
+        structure = structure_sections(run.folder / "fields")
+
+        chosen = nearest(times, [1e-6 * t for t in wanted_us])
+        aspect = float(extent[across] / extent[length])
+        columns = min(2 if aspect < 0.6 else 4, len(chosen))
+        rows = -(-len(chosen) // columns)
+        width_in = min(14, 8 * columns)
+        figure, axes = plt.subplots(rows, columns, squeeze=False,
+                                    layout="constrained",
+                                    figsize=(width_in, (width_in / columns - 1.2) * aspect * rows + 0.45 * rows + 0.6))
+        for axis in axes.flat[len(chosen):]:
+            axis.remove()
+        for axis, i in zip(axes.flat, chosen):
+            step = file[steps[i]]
+            if "pressure" not in step:
+                raise Missing(f"{path}: no field 'pressure'; add it to output.particle_fields of the scene")
+            position = np.stack([step[a][:] for a in AXES], axis=1).astype(float)
+            pressure = step["pressure"][:].astype(float)
+            void = step["void_fraction"][:] if "void_fraction" in step else np.zeros(len(pressure))
+            size = particle_sizes(step, spacing, len(pressure))
+            inside = np.abs(position[:, normal]) < 0.75 * np.maximum(size, spacing)
+            points, (values, empty, width) = mirrored(position[inside][:, plane],
+                                                      [1e-6 * pressure[inside], void[inside], size[inside]], mirror, plane)
+            wet = empty <= CAVITATED
+            top = max(np.quantile(values[wet], 0.995) if wet.any() else 1.0, 1.0)
+            axis.set_facecolor("0.92")
+            width = 1e3 * np.sqrt(2) * width  # discs on a square lattice then leave no gaps
+            discs = EllipseCollection(width[wet], width[wet], 0, units="xy", offsets=1e3 * points[wet],
+                                      transOffset=axis.transData, cmap="turbo", linewidths=0)
+            discs.set_array(values[wet])
+            discs.set_clim(0, top)
+            axis.add_collection(discs)
+            axis.add_collection(EllipseCollection(width[~wet], width[~wet], 0, units="xy", offsets=1e3 * points[~wet],
+                                                  transOffset=axis.transData, facecolors="white", linewidths=0))
+            if structure:
+                when, solid = min(structure, key=lambda entry: abs(entry[0] - times[i]))
+                if abs(when - times[i]) < 1e-6 and solid.is_file():
+                    polygons = [1e3 * p for p in structure_polygons(solid, normal, plane, mirror)]
+                    axis.add_collection(PolyCollection(polygons, facecolors="0.35", edgecolors="0.2", linewidths=0.2))
+                    points = np.concatenate([points] + [1e-3 * p for p in polygons])
+            edge = 1e3 * np.array([points.min(axis=0), points.max(axis=0)])
+            margin = 1e3 * spacing
+            axis.set(xlim=(edge[0, 0] - margin, edge[1, 0] + margin), ylim=(edge[0, 1] - margin, edge[1, 1] + margin),
+                     aspect="equal", title=f"{1e6 * times[i]:.1f} µs")
+            axis.tick_params(labelsize=7)
+            figure.colorbar(discs, ax=axis, aspect=15, pad=0.01).ax.tick_params(labelsize=7)
+        figure.suptitle(f"{run.title()}: pressure [MPa] in the plane {AXES[normal]} = 0 ({AXES[length]} to the right, mm); "
+                        "white: cavitated" + ("; grey: structure" if structure else ""), fontsize=10)
+    return figure
+
+
+# ------------------------------------------------------------------------------------------- main
+
+def main():
+    parser = argparse.ArgumentParser(description="Pictures of an undex run, into DIR/pictures.")
+    parser.add_argument("folder", metavar="DIR", help="the run's output folder")
+    parser.add_argument("--reference", type=Path, help="folder of the reference CSV files (default: those of the scene's case)")
+    parser.add_argument("--times", help="times of the section's pictures [us], such as 15,30,45 (default: the paper's for "
+                                        "its own scenes, else evenly spread)")
+    parser.add_argument("--dpi", type=int, default=110)
+    options = parser.parse_args()
+    try:
+        run = Run(options.folder)
+        wanted = PAPER_TIMES if run.kind else []
+        if options.times:
+            wanted = sorted(float(time) for time in options.times.split(","))
+    except (Missing, ValueError) as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 2
+    pictures = run.folder / "pictures"
+    pictures.mkdir(exist_ok=True)
+
+    reference = options.reference or REFERENCE.get(run.kind)
+    jobs = {"histories": lambda: plot_all_histories(run)}
+    if run.kind == "rigid_cylinder":
+        jobs["wall_pressure"] = lambda: plot_rigid_cylinder(run, reference)
+    if run.kind == "tube":
+        jobs["wall_motion"] = lambda: plot_tube(run, reference)
+    jobs["energy"] = lambda: plot_energy(run)
+    jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)
+    drawn = 0
+    for name, draw in jobs.items():
+        try:
+            figure = draw()
+        except (Missing, OSError) as error:
+            print(f"plot.py: no {name}.png: {error}", file=sys.stderr)
+            continue
+        if not figure.get_constrained_layout():
+            figure.tight_layout()
+        figure.savefig(pictures / f"{name}.png", dpi=options.dpi)
+        plt.close(figure)
+        print(pictures / f"{name}.png")
+        drawn += 1
+    return 0 if drawn == len(jobs) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+// Impossible geometry: overlaps, gaps, things outside of others.
+#include <gtest/gtest.h>
+
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene::test;
+
+void expect(const std::string& scene, const std::string& expected) {
+  const std::string found = mistakes(scene);
+  EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "expected:\n" << expected;
+}
+
+const std::string tank = R"(
+[[walls]]
+name = "tank"
+shape = {type = "box", low = 0, high = 1}
+)";
+
+TEST(Geometry, OverlapOfBodies) {
+  expect(with(coupled_tube, "subtract = [\"charge\"]\n", ""), "16:9: bodies.water overlaps bodies.charge, e.g. at [");
+  expect(with(two_gases, "low = 0.5, high = 1", "low = 0.499, high = 1"), "15:9: bodies.right overlaps bodies.left, e.g. at [0.499");
+}
+
+TEST(Geometry, TouchingBodiesDoNotOverlap) {
+  EXPECT_EQ(mistakes(R"(end_time = 1e-5
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "core"
+shape = {type = "cylinder", axis = "x", center = [0, 0.3, 0.1], radius = 0.1, low = 0, high = 1}
+material = "water-tait"
+[[bodies]]
+name = "coat"
+shape = {type = "tube", axis = "x", center = [0, 0.3, 0.1], inner_radius = 0.1, outer_radius = 0.2, low = 0, high = 1}
+material = "water-tait"
+[[bodies]]
+name = "ball"
+shape = {type = "sphere", center = [1.1, 0.3, 0.1], radius = 0.1}
+material = "water-tait"
+)"),
+            "");
+}
+
+TEST(Geometry, ThinOverlapAlongASurfaceIsFound) {
+  expect(with(coupled_tube, "radius = 0.044, low", "radius = 0.0442, low"), "16:9: bodies.water overlaps the structure, e.g. at [");
+}
+
+TEST(Geometry, OutsideTheWall) {
+  EXPECT_EQ(mistakes(two_gases + tank), "");
+  expect(with(two_gases + tank, "low = 0.5, high = 1}", "low = 0.5, high = 1.2}"),
+         "15:9: bodies.right reaches outside the wall 'tank', e.g. at [");
+  EXPECT_EQ(mistakes(with(two_gases + tank, "low = 0.5, high = 1}", "low = 0.5, high = 1.2}") + "faces = {x_high = \"open\"}\n"), "");
+  EXPECT_EQ(mistakes(two_gases + tank + "faces = {side = \"open\"}\n"),
+            "23:10: unknown key 'side' in walls.tank.faces; known: x_low, x_high, y_low, y_high, z_low, z_high\n");
+  EXPECT_EQ(mistakes(two_gases + tank + "faces = {z_low = \"open\"}\n"),
+            "23:18: walls.tank.faces.z_low: in dimension = 1 the wall has only the faces x_low, x_high\n");
+}
+
+TEST(Geometry, InThePartThatSymmetryLeavesOut) {
+  expect(with(two_gases, "low = 0, high = 0.5", "low = -1, high = -0.5") + "[symmetry]\nplanes = [\"x\"]\n",
+         "9:9: bodies.left lies wholly at x <= 0, in the part that the symmetry plane leaves out");
+  expect(with(coupled_tube, "point = [0.044, 0, 0]", "point = [0.044, 0, -0.01]"),
+         "30:9: probes.wall.point lies at z < 0, in the part that the symmetry plane leaves out; mirror it");
+}
+
+TEST(Geometry, SmallerThanTheSpacing) {
+  expect(with(coupled_tube, "radius = 0.0072", "radius = 0.0007"),
+         "11:9: bodies.charge is 0.0014 m at its thinnest, less than the spacing 0.002 m; make the spacing smaller or the body larger");
+}
+
+TEST(Geometry, Subtractions) {
+  expect(with(two_gases, "density = 0.125", "subtract = [{type = \"box\", low = 0, high = 2}]"),
+         "17:12: bodies.right: its subtractions leave nothing of it; make them smaller");
+  expect(with(two_gases, "density = 0.125", "subtract = [{type = \"box\", low = 2, high = 3}]"),
+         "17:12: bodies.right.subtract: the shape number 0 (from 0) does not meet the body, it removes nothing");
+  expect(with(two_gases, "density = 0.125", "subtract = [\"lef\"]"),
+         "17:13: bodies.right.subtract: no body 'lef'; did you mean 'left'?");
+  expect(with(two_gases, "density = 0.125", "subtract = [\"right\"]"),
+         "17:13: bodies.right.subtract: a body cannot be subtracted from itself");
+}
+
+TEST(Geometry, BodyWithoutEnd) {
+  expect(with(coupled_tube, "{type = \"sphere\", radius = 0.0072}", "{type = \"slab\", axis = \"y\", low = 1, high = 2}"),
+         "11:9: bodies.charge has no end along x; take a box instead of a slab");
+}
+
+TEST(Geometry, StructureThatTouchesNoWater) {
+  expect(with(coupled_tube, "radius = 0.044, low", "radius = 0.03, low"),
+         "25:7: structure.wet: the face 'inner' touches no water: no body comes within two spacings (0.004 m) of it");
+  EXPECT_EQ(mistakes(with(coupled_tube, "radius = 0.044, low", "radius = 0.042, low")), "");
+  expect(with(coupled_tube, "wet = [\"inner\"]\n", ""), "21:1: structure.wet is empty, so the water does not see the structure");
+}
+
+TEST(Geometry, StructureThatSymmetryDoesNotHalve) {
+  expect(with(coupled_tube, "outer_radius = 0.05, low = -0.1, high = 0.1", "outer_radius = 0.05, low = -0.1, high = 0.2"),
+         "22:9: structure: the symmetry plane z = 0 does not halve it (it runs from -0.1 to 0.2 m)");
+}
+
+TEST(Geometry, ProbesInNowhere) {
+  expect(with(coupled_tube, "point = [0.05, 0, 0]", "point = [0.06, 0, 0]"),
+         "35:9: probes.outer.point is 0.01 m away from the structure; move it onto it");
+  expect(with(coupled_tube, "point = [0.044, 0, 0]", "point = [0.02, 0, 0]"),
+         "30:9: probes.wall.point is 0.024 m away from every wall, more than two spacings; move it to the wall");
+  expect(two_gases + "[[probes]]\nname = \"far\"\npoint = 3\n",
+         "21:9: probes.far.point lies outside everything: 2 m from the nearest fluid or wall; move it");
+  expect(two_gases + "[[probes]]\nname = \"a\"\nkind = \"structure\"\npoint = 0.5\n",
+         "21:8: probes.a is a structure probe, but the scene has no [structure]");
+  expect(two_gases + "[[probes]]\nname = \"a\"\nkind = \"wall\"\npoint = 0.5\n",
+         "21:8: probes.a is a wall probe, but the scene has neither [[walls]] nor a wet face");
+}
+
+TEST(Geometry, NamesAndFit) {
+  expect(with(two_gases, "name = \"right\"", "name = \"left\""), "14:8: bodies: the name 'left' is used twice; choose another one");
+  expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nfit = \"watr\""),
+         "5:7: resolution.fit: no body or wall 'watr'; did you mean 'water'?");
+  expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nlattice = \"rings\""),
+         "5:11: resolution.lattice = \"rings\" needs a round body or wall to fit; add fit = \"its name\"");
+  expect(with(two_gases, "spacing = 0.01", "spacing = 0.01\nlattice = \"rings\"\nfit = \"left\""),
+         "6:11: resolution.lattice = \"rings\" needs dimension = 2 or 3");
+}
+
+}  // namespace

@@ -1,0 +1,142 @@
+// Each kind of mistake in a key: place, words and remedy; all of them at once.
+#include <gtest/gtest.h>
+
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene::test;
+
+TEST(Mistakes, SyntaxHasItsPlace) {
+  const std::string found = mistakes("end_time = 1\ndimension = = 2\n");
+  EXPECT_TRUE(found.starts_with("2:13: not TOML: ")) << found;
+  EXPECT_NE(mistakes("end_time = 1\nend_time = 2\n").find("not TOML"), std::string::npos);
+}
+
+TEST(Mistakes, AllAtOnceInOrderOfTheFile) {
+  EXPECT_EQ(mistakes(R"(dimension = 1
+end_tme = 0.1
+[resolution]
+spacing = -0.01
+[[bodies]]
+name = "left"
+shape = {type = "box", low = 0, high = 0.5}
+material = "aer"
+density = "1"
+)"),
+            "1:1: end_time is missing; give it in s, e.g. end_time = 1e-4\n"
+            "2:1: unknown key 'end_tme' at the top of the file; did you mean 'end_time'?\n"
+            "4:11: resolution.spacing = -0.01 [m] must be greater than 0 and at most 1e+05\n"
+            "8:12: bodies.left.material: unknown material 'aer'; did you mean 'air'? ('undex materials' lists them)\n"
+            "9:11: bodies.left.density must be a number in kg/m^3, not the text \"1\"\n");
+}
+
+struct Mistake {
+  const char* what;
+  std::string scene;
+  std::string expected;
+};
+
+TEST(Mistakes, EachHasPlaceAndRemedy) {
+  const std::vector<Mistake> all{
+      {"unknown key", with(two_gases, "density = 0.125", "densty = 0.125"),
+       "17:1: unknown key 'densty' in bodies.right; did you mean 'density'?\n"},
+      {"unknown key of another table", with(two_gases, "spacing = 0.01", "spacing = 0.01\ncourant = 0.3"),
+       "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
+      {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
+       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, pressure, "
+       "density, energy, burn, variable_h\n"},
+      {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
+       "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high\n"},
+      {"unknown key of a material", with(two_gases, "gamma = 1.4}\nenergy", "gama = 1.4}\nenergy"),
+       "10:12: bodies.left.material.gamma is missing; a law without 'base' needs all its parameters\n"
+       "10:42: unknown key 'gama' in bodies.left.material; did you mean 'gamma'?\n"},
+      {"missing key", with(two_gases, "spacing = 0.01", ""),
+       "4:1: resolution.spacing is missing; give the distance of particles in m, e.g. spacing = 0.002\n"},
+      {"missing table", with(two_gases, "[resolution]\nspacing = 0.01", ""),
+       "1:1: resolution.spacing is missing; add [resolution] with spacing = (particle distance in m)\n"},
+      {"wrong type", with(two_gases, "dimension = 1", "dimension = 1\ndeterministic = \"yes\""),
+       "2:17: deterministic must be true or false, not the text \"yes\"\n"},
+      {"not a whole number", with(two_gases, "dimension = 1", "dimension = 1\nthreads = 1.5"),
+       "2:11: threads must be a whole number, not the number 1.5\n"},
+      {"not a table", with(two_gases, "dimension = 1", "dimension = 1\noutput = 3"),
+       "2:10: output must be a table, [output], not the number 3\n"},
+      {"not an array of tables", with(two_gases, "dimension = 1", "dimension = 1\nwalls = {name = \"a\"}"),
+       "2:9: walls must be written as [[walls]], not a table\n"},
+      {"range", with(two_gases, "end_time = 0.1", "end_time = 0"),
+       "2:12: end_time = 0 [s] must be greater than 0 and at most 1000\n"},
+      {"not finite", with(two_gases, "energy = 2\n", "energy = nan\n"),
+       "18:10: bodies.right.energy = nan [J/kg] must be a finite number\n"},
+      {"negative density", with(two_gases, "density = 0.125", "density = -1"),
+       "17:11: bodies.right.density = -1 [kg/m^3] must be greater than 0\n"},
+      {"dimension", with(two_gases, "dimension = 1", "dimension = 4"),
+       "1:13: dimension = 4 must be from 1 to 3\n"},
+      {"components", with(coupled_tube, "point = [0.044, 0, 0]", "point = [0.044, 0]"),
+       "30:9: probes.wall.point must be an array of 3 numbers, not an array of 2\n"},
+      {"choice", with(coupled_tube, "kind = \"wall\"", "kind = \"wal\""),
+       "29:8: probes.wall.kind: unknown 'wal'; did you mean 'wall'?\n"},
+      {"quantity", with(coupled_tube, "point = [0.05, 0, 0]", "point = [0.05, 0, 0]\nquantities = [\"presure\", \"velocity\"]"),
+       "36:14: probes.outer.quantities: unknown 'presure'; known: displacement, velocity, stress, plastic_strain, temperature\n"},
+      {"field", two_gases + "[output]\nparticle_fields = [\"densty\"]\n",
+       "20:19: output.particle_fields: unknown 'densty'; did you mean 'density'?\n"},
+      {"shape type", with(coupled_tube, "type = \"sphere\"", "type = \"shpere\""),
+       "11:17: bodies.charge.shape.type must be one of box, slab, sphere, cylinder, tube, not the text \"shpere\"; did you "
+       "mean 'sphere'?\n"},
+      {"upside down", with(two_gases, "low = 0, high = 0.5", "low = 0.5, high = 0.5"),
+       "9:42: bodies.left.shape.high: along x, high = 0.5 must be greater than low = 0.5\n"},
+      {"inside out", with(coupled_tube, "inner_radius = 0.044", "inner_radius = 0.06"),
+       "22:61: structure.shape.outer_radius = 0.05 must be greater than inner_radius = 0.06\n"},
+      {"solid as a fluid", with(coupled_tube, "\"water-tait\"", "\"al-6061-t6\""),
+       "18:12: bodies.water.material: 'al-6061-t6' is a solid, not a fluid; known here: "},
+      {"unattainable pressure", with(coupled_tube, "pressure = 1e5", "pressure = -1e9"), "19:12: bodies.water.pressure = -1e+09 Pa: "},
+      {"energy of a barotropic law", with(coupled_tube, "pressure = 1e5", "energy = 1e5"),
+       "19:10: bodies.water.energy: the law of 'water-tait' is barotropic, it has no energy; leave it out\n"},
+      {"burn of water", with(coupled_tube, "pressure = 1e5", "burn = {}"),
+       "19:8: bodies.water.burn: the material 'water-tait' does not burn; only law \"jwl\" does\n"},
+      {"symmetry beyond the dimension", two_gases + "[symmetry]\nplanes = [\"x\", \"z\"]\n",
+       "20:10: symmetry.planes names \"z\", but the scene has dimension = 1; leave it out or raise the dimension\n"},
+      {"support", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"hihg\"}]"),
+       "26:21: structure.supports.0.face: unknown 'hihg'; did you mean 'high'?\n"},
+      {"face that symmetry cuts away", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"low\"}]"),
+       "26:21: structure.supports.0.face: unknown 'low'; known: inner, outer, high\n"},
+      {"wet face", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inside\"]"),
+       "25:7: structure.wet: unknown 'inside'"},
+      {"cells that symmetry cannot halve", with(coupled_tube, "along = 20", "along = 21"),
+       "23:44: structure.cells.along = 21 must be a multiple of 2: it counts the whole body, which a symmetry plane halves; "
+       "e.g. 22\n"},
+      {"load", with(coupled_tube, "wet = [\"inner\"]",
+                    "wet = [\"inner\"]\nloads = [{face = \"outer\", time = [0, 1, 1], pressure = [1, 2]}]"),
+       "26:34: structure.loads.0.time must increase: 1 follows 1\n"
+       "26:56: structure.loads.0: time has 3 values and pressure 2; give as many of each, at least one\n"},
+      {"structure below three dimensions", two_gases + "[structure]\nmaterial = \"copper-ofhc\"\n"
+                                                       "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\n",
+       "19:1: [structure] needs dimension = 3, but the scene has dimension = 1\n"},
+      {"coupling of nothing", two_gases + "[coupling]\nslip = false\n",
+       "19:1: [coupling] has nothing to couple: the scene has no [structure]; remove it or add one\n"},
+      {"circle of materials", with(two_gases, "dimension = 1", "dimension = 1\nmaterials = {a = {base = \"b\"}, b = {base = \"a\"}}"),
+       "the materials are based on each other in a circle; base one of them on the library\n"},
+      {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
+       "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
+      {"nothing", "end_time = 1\n", "1:1: the scene has neither [[bodies]] nor a [structure]: there is nothing to compute; add one\n"},
+  };
+  for (const Mistake& each : all) {
+    const std::string found = mistakes(each.scene);
+    EXPECT_NE(found.find(each.expected), std::string::npos) << each.what << " gave:\n" << found << "expected:\n" << each.expected;
+  }
+}
+
+TEST(Mistakes, GoodScenesHaveNone) {
+  EXPECT_EQ(mistakes(coupled_tube), "");
+  EXPECT_EQ(mistakes(two_gases), "");
+}
+
+TEST(Mistakes, OfAMaterialUsedTwiceAreReportedOnce) {
+  std::string scene = two_gases;
+  for (const char* name : {"left", "right"}) scene = with(scene, std::string("name = \"") + name + "\"", std::string("name = \"") + name + "_\"");
+  const std::string found = mistakes("materials.gas = {law = \"ideal_gas\", rho0 = 1, gamma = 0.5}\n" + scene,
+                                     {{"bodies.0.material", "gas"}, {"bodies.1.material", "gas"}});
+  EXPECT_EQ(found, "1:55: materials.gas.gamma = 0.5 must be greater than 1 and at most 100\n");
+}
+
+}  // namespace

@@ -1,0 +1,70 @@
+// -P key=value: every key can be overridden by its dotted path.
+#include <gtest/gtest.h>
+
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene;
+using namespace undex::scene::test;
+
+TEST(Overrides, NumbersListsWordsAndTables) {
+  const Scene scene = read_text(coupled_tube, {{"resolution.spacing", "0.001"},
+                                               {"symmetry.planes", "[]"},
+                                               {"scheme.kernel", "gaussian"},
+                                               {"title", "\"two words\""},
+                                               {"deterministic", "false"},
+                                               {"bodies.water.velocity", "[0, 0, 1]"},
+                                               {"bodies.water.shape.low", "-0.05"},
+                                               {"bodies.0.burn", "instantaneous"},
+                                               {"bodies.charge.material.E0", "5e6"},
+                                               {"structure.material.flow.A", "1e8"},
+                                               {"probes.wall.quantities", "[\"pressure\"]"}});
+  EXPECT_EQ(scene.fluid.lattice.spacing, 0.001);
+  EXPECT_EQ(scene.fluid.symmetry.axis, (std::array<bool, 3>{false, false, false}));
+  EXPECT_TRUE(scene.structure->symmetry_axes.empty());
+  EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
+  EXPECT_EQ(scene.title, "two words");
+  EXPECT_FALSE(scene.deterministic);
+  EXPECT_EQ(scene.fluid.bodies[1].velocity, Vec3(0, 0, 1));
+  EXPECT_EQ(std::get<Cylinder>(scene.fluid.bodies[1].shape.base).low, -0.05);
+  EXPECT_FALSE(scene.fluid.bodies[0].burn.has_value());
+  const auto& petn = std::get<materials::Jwl>(scene.fluid.bodies[0].material.law).parameters();
+  EXPECT_EQ(petn.E0, 5e6) << "a parameter of a material given by name";
+  EXPECT_EQ(petn.A, 617e9);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).A, 1e8);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).B, 596e6);
+  EXPECT_EQ(scene.probes[0].quantities, (std::vector<std::string>{"pressure"}));
+}
+
+TEST(Overrides, TheLastOneCounts) {
+  EXPECT_EQ(read_text(two_gases, {{"end_time", "1"}, {"end_time", "2"}}).end_time, 2);
+}
+
+TEST(Overrides, MistakesNameTheOption) {
+  const auto expect = [](const Override& given, const std::string& expected) {
+    EXPECT_EQ(mistakes(coupled_tube, {given}), expected);
+  };
+  expect({"resolution.spcing", "1"}, "-P resolution.spcing: unknown key 'spcing' in resolution; did you mean 'spacing'?\n");
+  expect({"resolutoin.spacing", "1"}, "-P resolutoin.spacing: unknown key 'resolutoin' at the top of the file; did you mean 'resolution'?\n");
+  expect({"resolution.spacing", "2mm"}, "-P resolution.spacing: resolution.spacing must be a number in m, not the text \"2mm\"\n");
+  expect({"resolution.spacing", "-1"},
+         "-P resolution.spacing: resolution.spacing = -1 [m] must be greater than 0 and at most 1e+05\n");
+  expect({"bodies.watr.pressure", "1"}, "-P bodies.watr.pressure: nothing in bodies is named 'watr'; did you mean 'water'?\n");
+  expect({"bodies.7.pressure", "1"}, "-P bodies.7.pressure: bodies has 2 elements, counted from 0\n");
+  expect({"end_time.x", "1"}, "-P end_time.x: end_time is the number 1e-05, it has no 'x'\n");
+  expect({"resolution..spacing", "1"}, "-P resolution..spacing: not a dotted path; write e.g. resolution.spacing=0.001\n");
+  expect({"title", "a b"}, "-P title: cannot read the value 'a b'; write a number, true, \"text\", [list] or {key = value}\n");
+  expect({"title", "1\nend_time = 3"},
+         "-P title: cannot read the value '1\nend_time = 3'; write a number, true, \"text\", [list] or {key = value}\n");
+  expect({"title", ""}, "-P title: cannot read the value ''; write a number, true, \"text\", [list] or {key = value}\n");
+}
+
+TEST(Overrides, MistakesOfFileAndOptionTogether) {
+  EXPECT_EQ(mistakes(with(two_gases, "density = 0.125", "densty = 0.125"), {{"scheme.eeta", "1"}}),
+            "-P scheme.eeta: unknown key 'eeta' in scheme; did you mean 'eta'?\n"
+            "17:1: unknown key 'densty' in bodies.right; did you mean 'density'?\n");
+}
+
+}  // namespace

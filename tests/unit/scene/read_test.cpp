@@ -1,0 +1,185 @@
+// Good scenes are read as they are meant, with the documented defaults.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene;
+using namespace undex::scene::test;
+
+TEST(Read, CoupledTubeWithItsDefaults) {
+  const Scene scene = read_text(coupled_tube);
+  EXPECT_EQ(scene.fluid.dimension, 3);
+  EXPECT_EQ(scene.end_time, 1e-5);
+  EXPECT_TRUE(scene.deterministic);
+  EXPECT_EQ(scene.fluid.lattice.spacing, 0.002);
+  EXPECT_EQ(scene.fluid.lattice.type, sph::LatticeType::cartesian);
+  EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::wendland_c2);
+  EXPECT_EQ(scene.fluid.numerics.eta, 1.5);
+  EXPECT_EQ(scene.fluid.symmetry.axis, (std::array<bool, 3>{true, true, true}));
+
+  ASSERT_EQ(scene.fluid.bodies.size(), 2u);
+  const sph::Body& charge = scene.fluid.bodies[0];
+  ASSERT_TRUE(charge.burn.has_value()) << "a charge burns from its middle unless told otherwise";
+  EXPECT_EQ(charge.burn->origin, Vec3(0, 0, 0));
+  EXPECT_EQ(charge.burn->D, 8300);
+  EXPECT_DOUBLE_EQ(charge.burn->width, 0.003);
+  EXPECT_TRUE(charge.variable_h);
+  const sph::Body& water = scene.fluid.bodies[1];
+  EXPECT_FALSE(water.variable_h);
+  EXPECT_EQ(water.pressure, 1e5);
+  ASSERT_EQ(water.shape.removed.size(), 1u) << "a body named in subtract is resolved to its shape";
+  EXPECT_EQ(std::get<Sphere>(water.shape.removed[0]).radius, 0.0072);
+  EXPECT_EQ(std::get<Cylinder>(water.shape.base).axis, 2);
+
+  ASSERT_TRUE(scene.structure.has_value());
+  const auto& tube = std::get<fem::TubeMesh>(scene.structure->mesh);
+  EXPECT_EQ(tube.cells_around, 32);
+  EXPECT_EQ(scene.structure->symmetry_axes, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(scene.structure->material.name, "al-5083-h116");
+  ASSERT_EQ(scene.probes.size(), 2u);
+  EXPECT_EQ(scene.probes[1].quantities.size(), 5u) << "without quantities, all of them";
+}
+
+TEST(Read, OneDimensionTakesBareNumbers) {
+  const Scene scene = read_text(with(two_gases, "energy = 2\n", "energy = 2\nvelocity = -3\n"));
+  EXPECT_EQ(scene.fluid.bodies[1].velocity, Vec3(-3, 0, 0));
+  EXPECT_EQ(std::get<Box>(scene.fluid.bodies[0].shape.base).high, Vec3(0.5, 0, 0));
+  EXPECT_EQ(scene.fluid.bodies[1].density, 0.125);
+}
+
+TEST(Read, TwoDimensionsTakeTwoOrThreeComponents) {
+  const Scene scene = read_text(R"(dimension = 2
+end_time = 1
+[resolution]
+spacing = 0.1
+[[bodies]]
+name = "disc"
+shape = {type = "cylinder", center = [1, 2, 3], radius = 1}
+material = "air"
+energy = 1e5
+velocity = [4, 5]
+[[walls]]
+name = "tank"
+shape = {type = "box", low = [-9, -9], high = [9, 9]}
+condition = "no_slip"
+faces = {y_high = "open"}
+)");
+  EXPECT_EQ(scene.fluid.bodies[0].velocity, Vec3(4, 5, 0));
+  EXPECT_EQ(std::get<Cylinder>(scene.fluid.bodies[0].shape.base).center, Vec3(1, 2, 0));
+  const auto& faces = scene.fluid.walls[0].faces;
+  ASSERT_EQ(faces.size(), 4u);
+  EXPECT_EQ(faces.at("y_high"), sph::FaceCondition::open);
+  EXPECT_EQ(faces.at("x_low"), sph::FaceCondition::no_slip);
+}
+
+TEST(Read, MaterialsOfTheScene) {
+  const Scene scene = read_text(with(coupled_tube, "[symmetry]", R"([materials.my-water]
+base = "water-tait"
+B = 3e8
+
+[materials.weak]
+base = "al-5083-h116"
+flow = {A = 1e8}
+
+[materials.steel]
+rho0 = 7800
+young_modulus = 200e9
+poisson_ratio = 0.3
+flow = {law = "linear_hardening", Y0 = 3e8, H = 1e9}
+
+[symmetry]
+)"),
+                                {{"bodies.water.material", "my-water"}, {"structure.material", "weak"}});
+  const auto& water = std::get<materials::TaitWater>(scene.fluid.bodies[1].material.law);
+  EXPECT_EQ(water.parameters().B, 3e8);
+  EXPECT_EQ(water.parameters().N, 7.15);
+  EXPECT_EQ(scene.fluid.bodies[1].material.name, "my-water");
+  const auto& flow = std::get<materials::JohnsonCook>(scene.structure->material.flow);
+  EXPECT_EQ(flow.A, 1e8);
+  EXPECT_EQ(flow.B, 596e6);
+  EXPECT_EQ(scene.structure->material.name, "weak");
+}
+
+TEST(Read, ElasticConstants) {
+  const Scene scene = read_text(with(coupled_tube, "material = \"al-5083-h116\"",
+                                     "material = {rho0 = 7800, young_modulus = 200e9, poisson_ratio = 0.25, "
+                                     "flow = {law = \"elastic\"}}"));
+  EXPECT_DOUBLE_EQ(scene.structure->material.shear_modulus, 80e9);
+  EXPECT_DOUBLE_EQ(std::get<materials::LinearPressure>(scene.structure->material.pressure).bulk_modulus, 400e9 / 3);
+}
+
+TEST(Read, InstantaneousBurnHasTwoSpellings) {
+  for (const char* burn : {"burn = \"instantaneous\"", "burn = {model = \"instantaneous\"}"}) {
+    const Scene scene = read_text(with(coupled_tube, "material = \"petn\"", std::string("material = \"petn\"\n") + burn));
+    EXPECT_FALSE(scene.fluid.bodies[0].burn.has_value());
+  }
+}
+
+TEST(Read, EachKernelHasItsOwnSmoothingLength) {
+  EXPECT_EQ(read_text(two_gases + "[scheme]\nkernel = \"gaussian\"\n").fluid.numerics.eta, 1.2);
+  EXPECT_EQ(read_text(two_gases + "[scheme]\nkernel = \"gaussian\"\neta = 1.3\n").fluid.numerics.eta, 1.3);
+}
+
+TEST(Read, CellSizeGivesTheCountsOfTheWholeTube) {
+  const Scene scene = read_text(with(coupled_tube, "cells = {through = 2, around = 32, along = 20}", "cell_size = 0.003"));
+  const auto& tube = std::get<fem::TubeMesh>(scene.structure->mesh);
+  EXPECT_EQ(tube.cells_through, 2);
+  EXPECT_EQ(tube.cells_around, 100) << "2 pi 47 mm / 3 mm = 98.4, rounded up to quarters";
+  EXPECT_EQ(tube.cells_along, 68) << "200 mm / 3 mm = 66.7, rounded up to halves";
+}
+
+TEST(Read, OtherStructures) {
+  const std::string frame = "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nvelocity = [0, 0, -227]\n";
+  const Scene rod = read_text(frame + "shape = {type = \"rod\", radius = 0.0032, low = 0, high = 0.0324}\n"
+                                      "supports = [{face = \"low\", fixed = [\"z\"]}]\n");
+  EXPECT_EQ(std::get<fem::RodMesh>(rod.structure->mesh).cells_radial, 6);
+  EXPECT_EQ(rod.structure->supports[0].fixed, (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(rod.structure->initial_velocity, Vec3(0, 0, -227));
+  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 2, 0.1]}\n"
+                                        "cells = {z = 4}\n[[structure.loads]]\nface = \"z_high\"\ntime = [0]\npressure = [1e6]\n");
+  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{20, 40, 4}));
+  EXPECT_EQ(plate.structure->loads[0].pressure[0], 1e6);
+  const Scratch scratch;
+  scratch.write("$MeshFormat\n", "mesh.msh");
+  const Scene gmsh = read(scratch.write(frame + "shape = {type = \"gmsh\", path = \"mesh.msh\"}\n"));
+  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).path, scratch.folder() / "mesh.msh");
+}
+
+TEST(Read, FolderOrFileAndItsName) {
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch.folder() / "my_scene");
+  std::ofstream(scratch.folder() / "my_scene" / "case.toml") << two_gases;
+  EXPECT_EQ(read(scratch.folder() / "my_scene").name, "my_scene");
+  EXPECT_EQ(read(scratch.folder() / "my_scene" / "").name, "my_scene");
+  EXPECT_EQ(read(scratch.write(two_gases, "other.toml")).name, "other");
+  EXPECT_EQ(read(scratch.write("name = \"mine\"\n" + two_gases)).name, "mine");
+}
+
+TEST(Read, MissingFilesAreNotTheScenesMistake) {
+  const Scratch scratch;
+  EXPECT_THROW(read(scratch.folder()), FileError);
+  EXPECT_THROW(read(scratch.folder() / "none.toml"), FileError);
+}
+
+TEST(Read, EveryShippedScene) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(UNDEX_ROOT) / "cases")) {
+    if (!std::filesystem::exists(entry.path() / "case.toml")) continue;
+    ++count;
+    try {
+      const Scene scene = read(entry.path());
+      EXPECT_EQ(scene.name, entry.path().filename().string());
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GE(count, 7);
+}
+
+}  // namespace

@@ -1,0 +1,220 @@
+// A resolved scene reads back as the same scene, and holds every key.
+#include <gtest/gtest.h>
+
+#include "scene/schema.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene;
+using namespace undex::scene::test;
+
+/// Scenes that between them use every kind of table, with no value at its default.
+const std::vector<std::string> rich{R"(title = "all \"sorts\" of \\ things\t"
+name = "rich"
+end_time = 2e-5
+threads = 2
+deterministic = false
+[resolution]
+spacing = 0.004
+lattice = "rings"
+fit = "tank"
+origin = [0.1, 0.2, 0.3]
+jitter = 0.01
+[symmetry]
+planes = ["y"]
+[scheme]
+kernel = "gaussian"
+eta = 1.25
+alpha = 0.5
+beta = 2
+courant = 0.2
+fixed_step = 1e-8
+h_low = 0.8
+h_high = 3
+[[bodies]]
+name = "charge"
+shape = {type = "sphere", center = [0, 0, 0.001], radius = 0.01}
+subtract = [{type = "slab", axis = "z", low = 0.009, high = 1}, {type = "tube", axis = "y", inner_radius = 0.001, outer_radius = 0.002, low = 0, high = 1}, {type = "box", low = [0.005, 0, 0], high = [1, 1, 1]}]
+material = {base = "petn", A = 6e11}
+spacing = 0.002
+velocity = [1, 2, 3]
+density = 1700
+energy = 5e6
+variable_h = false
+burn = {initiation = [0.001, 0, 0], speed = 8000, width = 0.005, cj_compression = 1.3}
+[[bodies]]
+name = "second"
+shape = {type = "sphere", center = [0, 0, 0.05], radius = 0.01}
+material = "petn"
+burn = "instantaneous"
+[[bodies]]
+name = "water"
+shape = {type = "cylinder", axis = "z", radius = 0.04, low = -0.1, high = 0.1}
+subtract = [{type = "sphere", center = [0, 0, 0.001], radius = 0.01}, "second"]
+material = {base = "water-tait", cavitation = "cutoff", p_floor = 1, p_sat = 3000, density_ratio = 2e-5, vapour_sound = 200, liquid_sound = 1500, N = 7, A = 2e5, B = 3e8, rho0 = 999, name = "my water", source = "made up"}
+pressure = 3e5
+[[bodies]]
+name = "block"
+shape = {type = "box", low = [0.1, 0, 0], high = [0.2, 0.1, 0.1]}
+material = {base = "water-steinberg", cavitation = "none", S3 = 0.1}
+[[bodies]]
+name = "jacket"
+shape = {type = "tube", axis = "z", inner_radius = 0.045, outer_radius = 0.06, low = -0.1, high = 0.1}
+material = {law = "barotropic_gas", rho0 = 1, p0 = 1e5, gamma = 1.4}
+[[bodies]]
+name = "air"
+shape = {type = "cylinder", axis = "x", center = [0, 0.5, 0.5], radius = 0.1, low = 0, high = 0.3}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.3}
+pressure = 1e5
+energy = 2e5
+[[walls]]
+name = "tank"
+shape = {type = "cylinder", axis = "z", radius = 2, low = -1, high = 1}
+condition = "no_slip"
+faces = {low = "open", side = "free_slip"}
+[[walls]]
+name = "outer"
+shape = {type = "box", low = [-3, -3, -3], high = [3, 3, 3]}
+faces = {x_low = "open"}
+[structure]
+name = "pipe"
+shape = {type = "tube", axis = "z", inner_radius = 0.04, outer_radius = 0.045, low = -0.1, high = 0.1}
+cells = {through = 3, around = 40, along = 30}
+material = {base = "al-6061-t6", T_room = 300, taylor_quinney = 0.8, pressure = {C = 5000}, flow = {rate0 = 2, T_room = 301}}
+supports = [{face = "low", fixed = ["x", "z"]}, {face = "high"}]
+wet = ["inner", "outer"]
+loads = [{face = "outer", time = [0, 1e-6], pressure = [1e5, 2e5]}]
+velocity = [0, 0, 4]
+courant = 0.7
+linear_viscosity = 0.05
+quadratic_viscosity = 1.1
+[coupling]
+slip = false
+window = 2
+[[probes]]
+name = "a"
+kind = "fluid"
+point = [0.02, 0, 0]
+quantities = ["pressure"]
+[[probes]]
+name = "b"
+kind = "wall"
+point = [0.04, 0, 0]
+quantities = ["density", "velocity"]
+[[probes]]
+name = "c"
+kind = "structure"
+point = [0.045, 0, 0]
+quantities = ["stress"]
+[output]
+history_interval = 1e-7
+field_interval = 1e-6
+field_times = [2e-6, 1e-6]
+particle_fields = ["mass", "energy"]
+structure_fields = false
+[comparison]
+kind = "tube"
+probe = "c"
+reference = "case.toml"
+)",
+                                    R"(end_time = 1e-4
+[structure]
+shape = {type = "plate", low = [0, 0, 0], high = [1, 1, 0.01]}
+material = {rho0 = 1e3, shear_modulus = 1e9, heat_capacity = 500, pressure = {law = "linear", bulk_modulus = 2e9}, flow = {law = "linear_hardening", Y0 = 1e6, H = 0}}
+)",
+                                    R"(end_time = 1e-4
+[structure]
+shape = {type = "rod", axis = "y", center = [1, 0, 2], radius = 0.1, low = 0, high = 1}
+material = {rho0 = 1e3, young_modulus = 1e9, poisson_ratio = 0.1, flow = {law = "elastic"}}
+)",
+                                    R"(end_time = 1e-4
+[structure]
+shape = {type = "gmsh", path = "case.toml"}
+material = "copper-ofhc"
+)",
+                                    coupled_tube, two_gases};
+
+TEST(RoundTrip, ReadsBackAsTheSameScene) {
+  for (const std::string& text : rich) {
+    const Scratch scratch;
+    const Scene scene = read(scratch.write(text));
+    const std::string resolved = to_toml(scene);
+    Scene again;
+    try {
+      again = read(scratch.write(resolved, "resolved.toml"));
+    } catch (const std::exception& error) {
+      FAIL() << error.what() << '\n' << resolved;
+    }
+    EXPECT_EQ(to_toml(again), resolved);
+    EXPECT_EQ(again.name, scene.name);
+  }
+}
+
+TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
+  const Scratch scratch;
+  const Scene scene = read(scratch.write(to_toml(read(scratch.write(rich[0]))), "resolved.toml"));
+  EXPECT_EQ(scene.title, "all \"sorts\" of \\ things\t");
+  EXPECT_EQ(scene.end_time, 2e-5);
+  EXPECT_EQ(scene.fluid.numerics.threads, 2);
+  EXPECT_FALSE(scene.deterministic);
+  EXPECT_EQ(scene.fluid.lattice.type, sph::LatticeType::rings);
+  EXPECT_EQ(scene.fluid.lattice.fit, "tank");
+  EXPECT_EQ(scene.fluid.lattice.origin, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(scene.fluid.lattice.jitter, 0.01);
+  EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
+  EXPECT_EQ(scene.fluid.numerics.eta, 1.25);
+  EXPECT_EQ(scene.fluid.numerics.fixed_step, 1e-8);
+  EXPECT_EQ(scene.fluid.numerics.h_high, 3);
+  const sph::Body& charge = scene.fluid.bodies[0];
+  EXPECT_EQ(charge.shape.removed.size(), 3u);
+  EXPECT_EQ(std::get<TubeShape>(charge.shape.removed[1]).outer, 0.002);
+  EXPECT_EQ(charge.spacing, 0.002);
+  EXPECT_EQ(charge.velocity, Vec3(1, 2, 3));
+  EXPECT_EQ(charge.density, 1700);
+  EXPECT_EQ(charge.energy, 5e6);
+  EXPECT_FALSE(charge.variable_h);
+  ASSERT_TRUE(charge.burn.has_value());
+  EXPECT_EQ(charge.burn->origin, Vec3(0.001, 0, 0));
+  EXPECT_EQ(charge.burn->D, 8000);
+  EXPECT_EQ(charge.burn->width, 0.005);
+  EXPECT_EQ(charge.burn->cj_compression, 1.3);
+  EXPECT_FALSE(scene.fluid.bodies[1].burn.has_value());
+  EXPECT_EQ(scene.fluid.bodies[2].material.name, "my water");
+  const auto& tait = std::get<materials::TaitWater>(scene.fluid.bodies[2].material.law).parameters();
+  EXPECT_EQ(tait.cavitation, materials::Cavitation::cutoff);
+  EXPECT_EQ(tait.mixture.p_sat, 3000);
+  EXPECT_EQ(scene.fluid.bodies[2].material.rho0, 999);
+  EXPECT_EQ(scene.fluid.walls[0].faces.at("low"), sph::FaceCondition::open);
+  EXPECT_EQ(scene.fluid.walls[0].faces.at("high"), sph::FaceCondition::no_slip);
+  EXPECT_EQ(scene.structure->supports[0].fixed, (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(scene.structure->material.T_room, 300);
+  EXPECT_EQ(std::get<materials::MieGruneisenPressure>(scene.structure->material.pressure).C, 5000);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).rate0, 2);
+  EXPECT_EQ(scene.structure->loads[0].pressure[1], 2e5);
+  EXPECT_EQ(scene.structure->courant, 0.7);
+  EXPECT_FALSE(scene.coupling.free_slip);
+  EXPECT_EQ(scene.coupling.window, 2);
+  EXPECT_EQ(scene.output.field_times, (std::vector<double>{1e-6, 2e-6}));
+  EXPECT_FALSE(scene.output.structure_fields);
+  EXPECT_EQ(scene.comparison.probe, "c");
+}
+
+// Keys that a resolved scene does not need: other spellings of what it holds.
+TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
+  const std::vector<std::string> spellings{".materials", "structure.cell_size", "walls.condition", "material.solid.base",
+                                           "material.solid.young_modulus", "material.solid.poisson_ratio"};
+  std::string all;
+  for (const std::string& text : rich) all += '\n' + to_toml(read_text(text));
+  for (const Section& section : schema())
+    for (const Key& key : section.keys) {
+      const std::string full = section.name + '.' + key.name;
+      if (std::find(spellings.begin(), spellings.end(), full) != spellings.end() || key.name == "base") continue;
+      const bool there = all.find('\n' + key.name + " = ") != std::string::npos ||
+                         all.find('[' + key.name + ']') != std::string::npos || all.find('.' + key.name + ']') != std::string::npos;
+      EXPECT_TRUE(there) << full;
+    }
+}
+
+}  // namespace

@@ -1,0 +1,38 @@
+// Scenes written by a test, and what the reader says of them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace undex::scene::test {
+
+/// A folder of its own that goes with the object.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::filesystem::path write(const std::string& text, const std::string& name = "case.toml") const;
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+Scene read_text(const std::string& text, const std::vector<Override>& overrides = {});
+
+/// The reader's findings, one line each, "line:column: message"; empty where the scene is good.
+std::string mistakes(const std::string& text, const std::vector<Override>& overrides = {});
+
+/// `text` with its one occurrence of `old` replaced.
+std::string with(std::string text, const std::string& old, const std::string& replacement);
+
+/// A small, good scene of a coupled tube, and one of a gas in one dimension.
+extern const std::string coupled_tube, two_gases;
+
+}  // namespace undex::scene::test

@@ -1,0 +1,317 @@
+// The pair loops against sums by brute force, and against a neighbour search by somebody else.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <nanoflann.hpp>
+#include <numeric>
+#include <set>
+
+#include "pair_sample.hpp"
+
+namespace undex::sph::testing {
+namespace {
+
+/// Rates agree to `tolerance` times the sizes of the summed terms.
+void expect_same(const Result& got, const Result& wanted, double tolerance) {
+  ASSERT_EQ(got.rates.size(), wanted.rates.size());
+  EXPECT_EQ(got.interactions, wanted.interactions);
+  for (std::size_t i = 0; i < got.rates.size(); ++i) {
+    const Rate &a = got.rates[i], &b = wanted.rates[i];
+    for (int k = 0; k < 3; ++k) ASSERT_NEAR(a.a[k], b.a[k], tolerance * b.size[k]) << "particle " << i << " axis " << k;
+    ASSERT_NEAR(a.compression, b.compression, tolerance * b.compression_size) << "particle " << i;
+    ASSERT_NEAR(a.heat, b.heat, tolerance * b.heat_size) << "particle " << i;
+    ASSERT_NEAR(a.closing, b.closing, tolerance * b.closing) << "particle " << i;
+  }
+  for (std::size_t k = 0; k < got.wall_forces.size(); ++k)
+    for (int a = 0; a < 3; ++a)
+      ASSERT_NEAR(got.wall_forces[k].a[a], wanted.wall_forces[k].a[a], tolerance * wanted.wall_forces[k].size[a])
+          << "wall particle " << k;
+}
+
+/// The Gaussian of the pair loops is a polynomial of 2e-11 relative error.
+double tolerance_of(KernelName kernel) { return kernel == KernelName::gaussian ? 5e-11 : 2e-12; }
+
+struct Case {
+  std::string name;
+  int dimension;
+  KernelName kernel;
+  bool lattice;              // else scattered
+  bool bodies;               // a second body of other spacing with variable h, a third of other constant h
+  std::array<bool, 3> mirror;
+  int wall;                  // 0: none, 1: free slip, 2: no slip, 3: both, moving
+};
+
+Sample make(const Case& c) {
+  Dice dice(1 + c.dimension);
+  Sample sample;
+  sample.dimension = c.dimension;
+  sample.kernel = c.kernel;
+  const double dx = 0.1, h = (c.kernel == KernelName::gaussian ? 1.2 : 1.5) * dx;
+  for (int a = 0; a < 3; ++a) sample.mirror[a] = c.mirror[a];
+  const Vec3 size(c.dimension == 1 ? 6.0 : 0.9, c.dimension > 1 ? 0.8 : 0.0, c.dimension > 2 ? 0.7 : 0.0);
+  const Vec3 low = c.mirror[0] || c.mirror[1] || c.mirror[2] ? Vec3(0, 0, 0) : Vec3(-0.2, c.dimension > 1 ? -0.3 : 0.0, c.dimension > 2 ? 0.4 : 0.0);
+  Set first;
+  first.cell_width = 2 * dx;
+  const int counts[3] = {int(size[0] / dx + 0.5), std::max(1, int(size[1] / dx + 0.5)), std::max(1, int(size[2] / dx + 0.5))};
+  for (int k = 0; k < counts[2]; ++k)
+    for (int j = 0; j < counts[1]; ++j)
+      for (int i = 0; i < counts[0]; ++i) {
+        Vec3 x = low;
+        const double at[3] = {i + 0.5, j + 0.5, k + 0.5};
+        for (int a = 0; a < c.dimension; ++a) x[a] += c.lattice ? at[a] * dx : dice.between(0, size[a]);
+        first.particles.push_back(random_particle(dice, x, c.dimension, h, dx, 1000, 1e8, 1500));
+      }
+  sample.sets.push_back(first);
+  if (c.bodies) {
+    Set gas{{}, true, 3 * dx}, coarse{{}, false, 3 * dx};
+    for (int k = 0; k < 60; ++k) {
+      Vec3 x = low, y = low;
+      for (int a = 0; a < c.dimension; ++a) {
+        x[a] += dice.between(0, 0.5 * size[a]);
+        y[a] += dice.between(0.4 * size[a], size[a]);
+      }
+      gas.particles.push_back(random_particle(dice, x, c.dimension, h * dice.between(0.7, 1.8), dx, 1.0, 1e6, 700));
+      coarse.particles.push_back(random_particle(dice, y, c.dimension, 1.4 * h, dx, 3000, 1e9, 5000));
+    }
+    sample.sets.push_back(gas);
+    sample.sets.push_back(coarse);
+  }
+  if (c.wall > 0)
+    for (int k = 0; k < 120; ++k) {
+      Vec3 x = low, n = Vec3::Zero(), v = Vec3::Zero();
+      for (int a = 0; a < c.dimension; ++a) {
+        x[a] += dice.between(a == 0 ? 0.8 * size[a] : 0, a == 0 ? 1.2 * size[a] : size[a]);
+        n[a] = dice.between(-1, 1);
+        if (c.wall == 3) v[a] = dice.between(-50, 50);
+      }
+      n.normalize();
+      const double slip = c.wall == 1 ? 1.0 : c.wall == 2 ? 0.0 : double(k % 2);
+      sample.walls.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2],
+                              std::pow(dx, c.dimension) * dice.between(0.5, 1.5), slip, 0.0});
+    }
+  return sample;
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const KernelName kernel : {KernelName::wendland_c2, KernelName::gaussian}) {
+    const std::string name = kernel == KernelName::gaussian ? "gaussian" : "wendland";
+    for (int d = 1; d <= 3; ++d) {
+      const std::string in = name + "_" + std::to_string(d) + "d_";
+      all.push_back({in + "lattice", d, kernel, true, false, {}, 0});
+      all.push_back({in + "scattered", d, kernel, false, false, {}, 0});
+      all.push_back({in + "bodies", d, kernel, false, true, {}, 0});
+      all.push_back({in + "slip_wall", d, kernel, true, false, {}, 1});
+      all.push_back({in + "no_slip_wall", d, kernel, true, false, {}, 2});
+      all.push_back({in + "everything", d, kernel, false, true, {true, d > 1, d > 2}, 3});
+    }
+    all.push_back({name + "_3d_plane_y", 3, kernel, false, true, {false, true, false}, 0});
+    all.push_back({name + "_3d_planes_xz", 3, kernel, true, true, {true, false, true}, 2});
+  }
+  return all;
+}
+
+class PairLoop : public ::testing::TestWithParam<Case> {};
+
+TEST_P(PairLoop, IsTheBruteForceSum) {
+  const Sample sample = make(GetParam());
+  for (const char* level : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    SCOPED_TRACE(level);
+    const AtLevel at(level);
+    const Result got = run(sample);
+    const Result wanted = brute_force(sample, got);
+    ASSERT_GT(wanted.interactions, 0);
+    expect_same(got, wanted, tolerance_of(sample.kernel));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, PairLoop, ::testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+
+/// Levels that this machine has differ by round-off only; a machine without AVX-512 compares what it has.
+TEST(PairLoops, InstructionSetsAgree) {
+  Sample sample = make({"", 3, KernelName::wendland_c2, false, true, {true, true, false}, 3});
+  const AtLevel best("x86-64-v4");
+  const Result reference = run(sample);
+  const Result sizes = brute_force(sample, reference);
+  for (const char* level : {"x86-64-v3", "x86-64-v2"}) {
+    SCOPED_TRACE(level);
+    const AtLevel at(level);
+    Result got = run(sample);
+    for (std::size_t i = 0; i < got.rates.size(); ++i) ASSERT_EQ(got.particles[i].x, reference.particles[i].x);
+    for (std::size_t i = 0; i < got.rates.size(); ++i) {
+      const Rate &a = got.rates[i], &b = reference.rates[i], &size = sizes.rates[i];
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(a.a[k], b.a[k], 1e-12 * size.size[k]);
+      ASSERT_NEAR(a.compression, b.compression, 1e-12 * size.compression_size);
+      ASSERT_NEAR(a.heat, b.heat, 1e-12 * size.heat_size);
+    }
+    EXPECT_EQ(got.interactions, reference.interactions);
+  }
+}
+
+TEST(PairLoops, LevelIsWhatWasAskedFor) {
+  {
+    const AtLevel at("x86-64-v2");
+    EXPECT_STREQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).cpu_level, "x86-64-v2");
+    EXPECT_EQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).lanes, 2);
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    const AtLevel at("x86-64-v3");
+    EXPECT_STREQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).cpu_level, "x86-64-v3");
+    EXPECT_EQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).lanes, 4);
+  }
+}
+
+struct Cloud {
+  std::vector<Vec3> points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][Eigen::Index(a)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3>;
+
+/// Neighbours counted by a k-d tree, in a cloud too large for brute force, with stray particles far off that stretch the
+/// grid and a plane of symmetry.
+TEST(PairLoops, CountsTheNeighboursOfAKdTree) {
+  Dice dice(7);
+  Sample sample;
+  sample.mirror[0] = true;
+  const double dx = 0.02, h = 1.5 * dx;
+  Set set{{}, false, 2 * dx};
+  for (int k = 0; k < 30000; ++k)
+    set.particles.push_back(random_particle(dice, {dice.between(0, 0.7), dice.between(0, 0.5), dice.between(0, 0.6)}, 3, h, dx, 1000, 1e8, 1500));
+  for (int k = 0; k < 5; ++k)
+    set.particles.push_back(random_particle(dice, {dice.between(0, 300), dice.between(-300, 300), dice.between(-300, 300)}, 3, h, dx, 1000, 1e8, 1500));
+  sample.sets.push_back(set);
+
+  Cloud cloud;
+  for (const PackedParticle& q : set.particles) {
+    cloud.points.push_back(place(q));
+    cloud.points.push_back(place(mirrored(q, 1)));
+  }
+  Tree tree(3, cloud);
+  tree.buildIndex();
+  long long wanted = 0;
+  for (const PackedParticle& q : set.particles) {
+    std::vector<std::pair<unsigned, double>> found;
+    const double at[3] = {q.x, q.y, q.z};
+    wanted += (long long)(tree.radiusSearch(at, 4 * h * h, found, nanoflann::SearchParams())) - 1;
+  }
+  for (const char* level : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    const AtLevel at(level);
+    EXPECT_EQ(run(sample).interactions, wanted) << level;
+  }
+}
+
+// ---- The cells -----------------------------------------------------------------------------------------------------
+
+struct Points {
+  std::vector<double> x, y, z;
+};
+
+Points scatter(int n) {
+  Dice dice(3);
+  Points p;
+  for (int k = 0; k < n; ++k) {
+    p.x.push_back(dice.between(-1, 2));
+    p.y.push_back(dice.between(5, 6));
+    p.z.push_back(dice.between(0, 0.3));
+  }
+  return p;
+}
+
+void expect_sorted(const CellList& cells, const Points& p, std::uint32_t first, std::uint32_t last) {
+  const CellGrid grid = cells.view();
+  const std::set<std::uint32_t> distinct(cells.order().begin(), cells.order().end());
+  ASSERT_EQ(cells.order().size(), last - first);
+  ASSERT_EQ(distinct.size(), last - first);
+  if (last > first) {
+    ASSERT_EQ(*distinct.begin(), first);
+    ASSERT_EQ(*distinct.rbegin(), last - 1);
+  }
+  const std::size_t count = std::size_t(grid.count[0]) * grid.count[1] * grid.count[2];
+  ASSERT_EQ(grid.start[0], first);
+  ASSERT_EQ(grid.start[count], last);
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::uint32_t k = grid.start[c]; k < grid.start[c + 1]; ++k) {
+      const std::uint32_t i = cells.order()[k - first];
+      const double at[3] = {p.x[i], p.y[i], p.z[i]};
+      const long cell[3] = {long(c % grid.count[0]), long(c / grid.count[0] % grid.count[1]), long(c / grid.count[0] / grid.count[1])};
+      for (int a = 0; a < 3; ++a) {
+        ASSERT_GE(at[a], grid.low[a] + (cell[a] - 1e-9) * grid.size[a]);
+        ASSERT_LE(at[a], grid.low[a] + (cell[a] + 1 + 1e-9) * grid.size[a]);
+      }
+    }
+}
+
+TEST(CellList, EveryParticleLiesInItsCell) {
+  const Points p = scatter(20000);
+  CellList cells;
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 100, 19000, 0.07);
+  expect_sorted(cells, p, 100, 19000);
+  // Rebuilt, smaller: nothing left of the first time.
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 5, 900, 0.03);
+  expect_sorted(cells, p, 5, 900);
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 5, 5, 0.03);
+  expect_sorted(cells, p, 5, 5);
+}
+
+TEST(CellList, OrderDoesNotDependOnThreads) {
+  const Points p = scatter(20000);
+  const int before = omp_get_max_threads();
+  CellList one, three;
+  omp_set_num_threads(1);
+  one.build(p.x.data(), p.y.data(), p.z.data(), 0, 20000, 0.1);
+  omp_set_num_threads(3);
+  three.build(p.x.data(), p.y.data(), p.z.data(), 0, 20000, 0.1);
+  omp_set_num_threads(before);
+  EXPECT_EQ(one.order(), three.order());
+}
+
+/// A stray particle must cost neither memory nor correctness.
+TEST(CellList, StrayParticlesDoNotCostMemory) {
+  Points p = scatter(5000);
+  p.x[17] = 1e9;
+  p.z[4000] = -1e12;
+  CellList cells;
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 5000, 0.05);
+  expect_sorted(cells, p, 0, 5000);
+  EXPECT_LT(cells.memory_bytes(), 3e6);
+}
+
+TEST(CellList, RefusesPositionsThatAreNotFinite) {
+  Points p = scatter(50);
+  p.y[20] = std::nan("");
+  CellList cells;
+  EXPECT_THROW(cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 50, 0.1), std::domain_error);
+}
+
+TEST(CellList, ClustersCoverEveryParticleOnce) {
+  const Points p = scatter(3000);
+  CellList cells;
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 3000, 0.1);
+  const CellGrid grid = cells.view();
+  for (const int lanes : {2, 4, 8}) {
+    std::vector<Cluster> clusters;
+    cells.append_clusters(lanes, 3, clusters);
+    std::uint32_t next = 0;
+    for (const Cluster& cluster : clusters) {
+      EXPECT_EQ(cluster.begin, next);
+      EXPECT_EQ(cluster.group, 3);
+      EXPECT_GE(cluster.count, 1);
+      EXPECT_LE(cluster.count, lanes);
+      next += cluster.count;
+      // None across the end of a row.
+      for (std::size_t row = 0; row < std::size_t(grid.count[1]) * grid.count[2]; ++row) {
+        const std::uint32_t end = grid.start[(row + 1) * grid.count[0]];
+        EXPECT_FALSE(cluster.begin < end && cluster.begin + cluster.count > end);
+      }
+    }
+    EXPECT_EQ(next, 3000u);
+  }
+}
+
+}  // namespace
+}  // namespace undex::sph::testing

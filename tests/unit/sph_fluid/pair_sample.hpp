@@ -1,0 +1,342 @@
+// Hand-made particles for the pair loops, and the same sums once more by brute force: every particle against every other,
+// mirrored images written out, scalar arithmetic, formulas taken from the paper and not from the code under test.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/vector.hpp"
+#include "sph_fluid/cell_list.hpp"
+#include "sph_fluid/pair_loop.hpp"
+
+namespace undex::sph::testing {
+
+/// Runs the pair loops at the instruction set `level` while it lives; the one used before comes back after it.
+class AtLevel {
+ public:
+  explicit AtLevel(const char* level) {
+    if (const char* before = std::getenv("UNDEX_CPU_LEVEL")) before_ = before;
+    setenv("UNDEX_CPU_LEVEL", level, 1);
+  }
+  AtLevel(const AtLevel&) = delete;
+  AtLevel& operator=(const AtLevel&) = delete;
+  ~AtLevel() { before_.empty() ? unsetenv("UNDEX_CPU_LEVEL") : setenv("UNDEX_CPU_LEVEL", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+/// Particles of one body.
+struct Set {
+  std::vector<PackedParticle> particles;
+  bool variable_h = false;
+  double cell_width = 1.0;  ///< [m]
+};
+
+struct Sample {
+  int dimension = 3;
+  KernelName kernel = KernelName::wendland_c2;
+  SchemeName scheme = SchemeName::monaghan;
+  double alpha = 1.0, beta = 10.0;
+  bool mirror[3] = {false, false, false};
+  std::vector<Set> sets;
+  std::vector<PackedWall> walls;
+};
+
+/// Rates of one particle, or the force on one wall particle in `a`.
+struct Rate {
+  Vec3 a = Vec3::Zero();
+  double compression = 0, heat = 0, closing = 0;
+  Vec3 size = Vec3::Zero();    ///< sum of the terms' absolute values in `a`: what round-off is measured against
+  double compression_size = 0, heat_size = 0;
+};
+
+/// What the pair loops made of a sample, in the order in which the cells put the particles.
+struct Result {
+  std::vector<PackedParticle> particles;
+  std::vector<PackedWall> walls;
+  std::vector<PackedGradient> gradients;  ///< of schemes that reconstruct
+  std::vector<Rate> rates, wall_forces;
+  long long interactions = 0;
+};
+
+inline Result run(const Sample& sample) {
+  const PairLoops loops = pair_loops(sample.kernel, sample.scheme);
+  Result result;
+  std::vector<double> x, y, z;
+  std::vector<GroupView> groups;
+  std::vector<Cluster> clusters;
+  std::vector<CellList> cells(sample.sets.size());
+  std::vector<PackedParticle> all;
+  for (const Set& set : sample.sets) all.insert(all.end(), set.particles.begin(), set.particles.end());
+  for (const PackedParticle& q : all) {
+    x.push_back(q.x);
+    y.push_back(q.y);
+    z.push_back(q.z);
+  }
+  std::uint32_t begin = 0;
+  for (std::size_t g = 0; g < sample.sets.size(); ++g) {
+    const Set& set = sample.sets[g];
+    const std::uint32_t end = begin + std::uint32_t(set.particles.size());
+    cells[g].build(x.data(), y.data(), z.data(), begin, end, set.cell_width);
+    for (const std::uint32_t k : cells[g].order()) result.particles.push_back(all[k]);
+    double h_max = 0;
+    for (const PackedParticle& q : set.particles) h_max = std::max(h_max, q.h);
+    cells[g].append_clusters(loops.lanes, std::uint16_t(g), clusters);
+    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h});
+    begin = end;
+  }
+  const std::size_t n = all.size(), m = sample.walls.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = result.particles[i].x;
+    y[i] = result.particles[i].y;
+    z[i] = result.particles[i].z;
+  }
+  std::vector<double> wx(m), wy(m), wz(m);
+  CellList wall_cells;
+  std::vector<Cluster> wall_clusters;
+  const auto spread = [&](const std::vector<PackedWall>& walls) {
+    for (std::size_t k = 0; k < m; ++k) {
+      wx[k] = walls[k].x;
+      wy[k] = walls[k].y;
+      wz[k] = walls[k].z;
+    }
+  };
+  if (m > 0) {
+    spread(sample.walls);
+    wall_cells.build(wx.data(), wy.data(), wz.data(), 0, std::uint32_t(m), sample.sets.at(0).cell_width);
+    for (const std::uint32_t k : wall_cells.order()) result.walls.push_back(sample.walls[k]);
+    spread(result.walls);
+    wall_cells.append_clusters(loops.lanes, 0, wall_clusters);
+  }
+
+  std::vector<Scratch> scratch(64);
+  PairInput in{};
+  in.dimension = sample.dimension;
+  in.x = x.data();
+  in.y = y.data();
+  in.z = z.data();
+  in.packed = result.particles.data();
+  in.groups = groups.data();
+  in.group_count = int(groups.size());
+  in.walls = result.walls.data();
+  in.wall_x = wx.data();
+  in.wall_y = wy.data();
+  in.wall_z = wz.data();
+  if (m > 0) in.wall_grid = wall_cells.view();
+  in.wall_count = std::uint32_t(m);
+  for (int a = 0; a < 3; ++a) in.mirror[a] = sample.mirror[a];
+  in.alpha = sample.alpha;
+  in.beta = sample.beta;
+  result.gradients.resize(loops.needs_gradients ? n : 0);
+  in.gradients = result.gradients.data();
+  in.clusters = clusters.data();
+  in.cluster_count = std::uint32_t(clusters.size());
+  in.scratch = scratch.data();
+
+  std::vector<double> ax(n), ay(n), az(n), compression(n), heat(n), closing(n), fx(m), fy(m), fz(m);
+  std::vector<long long> interactions(clusters.size());
+  loops.fluid_rates(in, {ax.data(), ay.data(), az.data(), compression.data(), heat.data(), closing.data(),
+                         interactions.data()});
+  if (m > 0)
+    loops.wall_forces(in, wall_clusters.data(), std::uint32_t(wall_clusters.size()), {fx.data(), fy.data(), fz.data()});
+  for (Scratch& s : scratch) {
+    std::free(s.near);
+    std::free(s.variable);
+    std::free(s.near_gradient);
+    std::free(s.variable_gradient);
+    std::free(s.wall);
+    std::free(s.index);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    Rate rate;
+    rate.a = {ax[i], ay[i], az[i]};
+    rate.compression = compression[i];
+    rate.heat = heat[i];
+    rate.closing = closing[i];
+    result.rates.push_back(rate);
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    Rate force;
+    force.a = {fx[k], fy[k], fz[k]};
+    result.wall_forces.push_back(force);
+  }
+  for (const long long count : interactions) result.interactions += count;
+  return result;
+}
+
+inline Vec3 place(const PackedParticle& q) { return {q.x, q.y, q.z}; }
+inline Vec3 place(const PackedWall& q) { return {q.x, q.y, q.z}; }
+inline Vec3 speed(const PackedParticle& q) { return {q.vx, q.vy, q.vz}; }
+inline Vec3 speed(const PackedWall& q) { return {q.vx, q.vy, q.vz}; }
+
+/// (dW/dr)/r of the kernel named, from its formula.
+inline double reference_gradient(KernelName kernel, double r, double h, int d) {
+  const double pi = std::numbers::pi, q = r / h;
+  if (kernel == KernelName::wendland_c2) {
+    if (q >= 2.0) return 0.0;
+    const double norm = d == 1 ? 0.75 : d == 2 ? 7.0 / (4.0 * pi) : 21.0 / (16.0 * pi);
+    return -5.0 * norm * std::pow(1.0 - q / 2.0, 3) / std::pow(h, d + 2);
+  }
+  if (q >= 3.0) return 0.0;
+  // Integral of exp(-q^2) - exp(-9) over the ball of radius 3, shell by shell (Simpson's rule).
+  double integral = 0;
+  const int n = 4000;
+  for (int k = 0; k <= n; ++k) {
+    const double s = 3.0 * k / n, weight = (k == 0 || k == n ? 1.0 : k % 2 ? 4.0 : 2.0) * 3.0 / n / 3.0;
+    const double shell = d == 1 ? 2.0 : d == 2 ? 2.0 * pi * s : 4.0 * pi * s * s;
+    integral += weight * shell * (std::exp(-s * s) - std::exp(-9.0));
+  }
+  return -2.0 / integral * std::exp(-q * q) / std::pow(h, d + 2);
+}
+
+inline double reference_support(KernelName kernel) { return kernel == KernelName::gaussian ? 3.0 : 2.0; }
+
+/// Monaghan's viscosity (eq. 6) with alpha and beta; `approach` is v_ij . x_ij.
+inline double reference_viscosity(const Sample& s, double approach, double r2, double h, double c, double rho) {
+  if (approach >= 0) return 0.0;
+  const double phi = h * approach / (r2 + 0.01 * h * h);
+  return (-s.alpha * c * phi + s.beta * phi * phi) / rho;
+}
+
+template <class Item>
+Item mirrored(const Item& original, int image) {
+  Item q = original;
+  const double sx = image & 1 ? -1 : 1, sy = image & 2 ? -1 : 1, sz = image & 4 ? -1 : 1;
+  q.x *= sx;
+  q.y *= sy;
+  q.z *= sz;
+  q.vx *= sx;
+  q.vy *= sy;
+  q.vz *= sz;
+  if constexpr (std::is_same_v<Item, PackedWall>) {
+    q.nx *= sx;
+    q.ny *= sy;
+    q.nz *= sz;
+  }
+  return q;
+}
+
+inline bool has_image(const Sample& s, int image) {
+  for (int a = 0; a < 3; ++a)
+    if (image >> a & 1 && !s.mirror[a]) return false;
+  return true;
+}
+
+/// What wall particle w does to fluid particle i: the fluid's own state mirrored at the wall's motion.
+inline void add_wall(const Sample& s, const PackedParticle& i, const PackedWall& w, Rate& sum, double gradient) {
+  const Vec3 x = place(i) - place(w), u = speed(i) - speed(w), n(w.nx, w.ny, w.nz);
+  const Vec3 across = w.slip > 0.5 ? Vec3(x.dot(n) * n) : x;
+  const double approach = 2.0 * u.dot(across);
+  const double Pi = reference_viscosity(s, approach, x.squaredNorm(), i.h, i.c, i.rho);
+  const double mass = i.rho * w.V;
+  const Vec3 pull = -mass * (2.0 * i.p / (i.rho * i.rho) + Pi) * gradient * across;
+  sum.a += pull;
+  sum.size += pull.cwiseAbs();
+  sum.compression += w.V * gradient * approach;
+  sum.compression_size += std::abs(w.V * gradient * approach);
+  sum.heat += 0.5 * mass * Pi * gradient * approach;
+  sum.heat_size += std::abs(0.5 * mass * Pi * gradient * approach);
+  sum.closing = std::max(sum.closing, std::max(0.0, -i.h * approach / (x.squaredNorm() + 0.01 * i.h * i.h)));
+}
+
+/// The sums that run() should have made, for its order of particles.
+inline Result brute_force(const Sample& s, const Result& order) {
+  Result result = order;
+  const double support = reference_support(s.kernel);
+  result.interactions = 0;
+  // The gradient is a function of q alone but for a factor: tabulating the Gaussian's norm would only hide it.
+  const double scale = reference_gradient(s.kernel, 0.0, 1.0, s.dimension);
+  const auto gradient = [&](double r, double h) {
+    const double q = r / h;
+    if (q >= support) return 0.0;
+    const double shape = s.kernel == KernelName::gaussian ? std::exp(-q * q) : std::pow(1.0 - q / 2.0, 3);
+    return scale * shape / std::pow(h, s.dimension + 2);
+  };
+  for (std::size_t k = 0; k < order.particles.size(); ++k) {
+    const PackedParticle& i = order.particles[k];
+    Rate sum;
+    for (int image = 0; image < 8; ++image) {
+      if (!has_image(s, image)) continue;
+      for (std::size_t l = 0; l < order.particles.size(); ++l) {
+        if (l == k && image == 0) continue;
+        const PackedParticle j = mirrored(order.particles[l], image);
+        const double h = 0.5 * (i.h + j.h);
+        const Vec3 x = place(i) - place(j), v = speed(i) - speed(j);
+        const double r = x.norm();
+        if (r >= support * h) continue;
+        ++result.interactions;
+        const double F = gradient(r, h), approach = v.dot(x), mass = j.rho * j.V;
+        const double Pi = reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
+        const Vec3 push = -mass * ((i.p + j.p) / (i.rho * j.rho) + Pi) * F * x;
+        sum.a += push;
+        sum.size += push.cwiseAbs();
+        sum.compression += j.V * F * approach;
+        sum.compression_size += std::abs(j.V * F * approach);
+        sum.heat += 0.5 * mass * Pi * F * approach;
+        sum.heat_size += std::abs(0.5 * mass * Pi * F * approach);
+        sum.closing = std::max(sum.closing, std::max(0.0, -h * approach / (r * r + 0.01 * h * h)));
+      }
+      for (const PackedWall& wall : order.walls) {
+        const PackedWall w = mirrored(wall, image);
+        const double r = (place(i) - place(w)).norm();
+        if (r >= support * i.h) continue;
+        ++result.interactions;
+        add_wall(s, i, w, sum, gradient(r, i.h));
+      }
+    }
+    result.rates[k] = sum;
+  }
+  for (std::size_t k = 0; k < order.walls.size(); ++k) {
+    Rate force;
+    for (int image = 0; image < 8; ++image) {
+      if (!has_image(s, image)) continue;
+      for (const PackedParticle& particle : order.particles) {
+        const PackedParticle i = mirrored(particle, image);
+        const double r = (place(i) - place(order.walls[k])).norm();
+        if (r >= support * i.h) continue;
+        Rate one;
+        add_wall(s, i, order.walls[k], one, gradient(r, i.h));
+        force.a -= i.rho * i.V * one.a;
+        force.size += i.rho * i.V * one.size;
+      }
+    }
+    result.wall_forces[k] = force;
+  }
+  return result;
+}
+
+/// Random numbers from a fixed seed.
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) { return low + (high - low) * double(engine_()) / 4294967296.0; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// One particle with a random state about rho0, p0 and c0.
+inline PackedParticle random_particle(Dice& dice, const Vec3& x, int dimension, double h, double dx, double rho0, double p0,
+                                      double c0) {
+  PackedParticle q{};
+  q.x = x[0];
+  q.y = x[1];
+  q.z = x[2];
+  q.vx = dice.between(-100, 100);
+  if (dimension > 1) q.vy = dice.between(-100, 100);
+  if (dimension > 2) q.vz = dice.between(-100, 100);
+  q.p = p0 * dice.between(-0.2, 1);
+  q.rho = rho0 * dice.between(0.8, 1.2);
+  q.c = c0 * dice.between(0.8, 1.2);
+  q.V = std::pow(dx, dimension) * dice.between(0.8, 1.2);
+  q.h = h;
+  return q;
+}
+
+}  // namespace undex::sph::testing
