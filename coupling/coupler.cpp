@@ -1,6 +1,7 @@
 #include "coupling/coupler.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "sph_fluid/lattice.hpp"
@@ -38,18 +39,18 @@ Coupler::Window Coupler::advance(double end) {
   const double start = structure_.time();
   const double patience = settings_.window * structure_.stable_step();
   const long structure_steps = structure_.steps();
+  window.limit = fluid_.step_limit();
+  double target = std::min(end, start + std::max(patience, window.limit.step));
+  // The last two windows before `end` share what is left, so that none is tiny.
+  if (target < end && end - start < 2.0 * (target - start)) target = 0.5 * (start + end);
   do {
-    window.limit = fluid_.step_limit();
-    const double left = end - fluid_.time();
-    const double within = start + patience - fluid_.time();
-    double step = std::min(window.limit.step, left);
-    // Several fluid steps in one of the structure's: divide what is left of it evenly.
-    if (within > step) step = within / std::ceil(within / step - 1e-9);
-    window.step = std::min(step, left);
+    if (window.fluid_steps > 0) window.limit = fluid_.step_limit();
+    const double left = target - fluid_.time();
+    window.step = left / std::ceil(left / window.limit.step - 1e-9);
     show_wall(fluid_.time() + window.step - start);
     fluid_.step(window.step);
     ++window.fluid_steps;
-  } while (fluid_.time() < std::min(end, start + patience) * (1 - 1e-12));
+  } while (fluid_.time() < target * (1 - 1e-12));
   window.held_by_structure = window.fluid_steps > 1;
 
   sph::MovingWall& wall = fluid_.moving_wall(wall_index_);

@@ -18,12 +18,13 @@ struct Energies {
   double viscous = 0;   ///< bulk viscosity's dissipation
   double external = 0;  ///< work of impulses and pressure loads received
   double reaction = 0;  ///< work of supports: zero for fixed ones, kept as a check
-  /// What the energy that central differences conserve, with half the product of the two half-step velocities, has
-  /// beyond `kinetic`: minus dt^2/8 m a.a. Negligible but for motion at the mesh's own frequency.
-  double staggering = 0;
+  /// What the time integrator has held back or made, a term of second order in the step that is known exactly: central
+  /// differences conserve energy with the product of the two half-step velocities in place of the square of the mean,
+  /// and lose or gain as much whenever the step or a force jumps. Zero at the start.
+  double integrator = 0;
 
-  /// Constant (its initial kinetic energy) but for the error of the time integrator.
-  double balance() const { return kinetic + staggering + elastic + plastic + viscous - external - reaction; }
+  /// Stays at its first value (the initial kinetic energy), but for what finite strain within a step leaves.
+  double balance() const { return kinetic + integrator + elastic + plastic + viscous - external - reaction; }
 };
 
 /// Fields at the cells' centres (averages over the quadrature points) and at the nodes, for output and probes.

@@ -53,6 +53,8 @@ void read_scheme(const TableReader& top, Draft& draft) {
   const Node* node = top.table("scheme");
   if (!node) return;
   const TableReader table(*node, "scheme", "scheme", top.dimension(), draft.report);
+  table.read_choice<sph::SchemeName>("name", numerics.scheme, {{"monaghan", sph::SchemeName::monaghan},
+                                                               {"riemann", sph::SchemeName::riemann}});
   table.read_choice<sph::KernelName>("kernel", numerics.kernel, {{"gaussian", sph::KernelName::gaussian},
                                                                  {"wendland_c2", sph::KernelName::wendland_c2}});
   // each kernel's own usual smoothing length

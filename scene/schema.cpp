@@ -35,7 +35,7 @@ std::vector<Section> make_schema() {
        {length("spacing"), word("lattice"), word("fit"), position("origin"), between("jitter", 0, 0.5)}},
       {"symmetry", {word("planes")}},
       {"scheme",
-       {word("kernel"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
+       {word("name"), word("kernel"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
         above("courant", 0, 1), above("fixed_step", 0, 1, "s"), between("h_low", 0.1, 1), between("h_high", 1, 20)}},
 
       {"bodies",

@@ -294,6 +294,7 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.axes("planes", fluid.symmetry.axis);
   writer.table("[scheme]", "scheme");
   const sph::Numerics& numerics = fluid.numerics;
+  writer.put("name", numerics.scheme == sph::SchemeName::monaghan ? "monaghan" : "riemann");
   writer.put("kernel", numerics.kernel == sph::KernelName::gaussian ? "gaussian" : "wendland_c2");
   writer.put("eta", numerics.eta);
   writer.put("alpha", numerics.alpha);

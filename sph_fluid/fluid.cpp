@@ -214,17 +214,18 @@ struct Fluid::Implementation {
     }
   }
 
-  /// State predicted for the end of the step, pressure and sound speed, and the smoothing length.
-  void equation_of_state(double half) {
+  /// State predicted for the end of the step, pressure and sound speed, and the smoothing length. The prediction adds
+  /// `half` times the last rates and `bend` times their last change to the half-kicked state.
+  void equation_of_state(double half, double bend) {
     const auto timer = timers.measure("equation of state");
     for (Group& group : groups) {
-      std::visit([&](const auto& law) { evaluate_group(law, group, half); }, group.body->material.law);
+      std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
       views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h});
     }
   }
 
   template <class Law>
-  void evaluate_group(const Law& law, Group& group, double half) {
+  void evaluate_group(const Law& law, Group& group, double half, double bend) {
     const Particles& p = particles;
     const bool variable = group.body->variable_h;
     const double inverse_dimension = 1.0 / settings.dimension;
@@ -239,10 +240,10 @@ struct Fluid::Implementation {
       q.x = p.x[i];
       q.y = p.y[i];
       q.z = p.z[i];
-      q.vx = p.vx[i] + half * p.ax[i];
-      q.vy = p.vy[i] + half * p.ay[i];
-      q.vz = p.vz[i] + half * p.az[i];
-      q.rho = advanced_density(p.rho[i], half * p.compression[i]);
+      q.vx = p.vx[i] + half * p.ax[i] + bend * (p.ax[i] - p.ax_before[i]);
+      q.vy = p.vy[i] + half * p.ay[i] + bend * (p.ay[i] - p.ay_before[i]);
+      q.vz = p.vz[i] + half * p.az[i] + bend * (p.az[i] - p.az_before[i]);
+      q.rho = advanced_density(p.rho[i], half * p.compression[i] + bend * (p.compression[i] - p.compression_before[i]));
       q.V = p.mass[i] / q.rho;
       materials::PressureSound state;
       if constexpr (std::is_same_v<Law, materials::Jwl>) {
@@ -373,10 +374,11 @@ struct Fluid::Implementation {
       }
   }
 
-  /// Rates at the present positions, with the state predicted `half` [s] ahead of the half-kicked one.
-  void evaluate(double half) {
+  /// Rates at the present positions, with the state predicted for the end of a step (see equation_of_state).
+  void evaluate(double half, double bend) {
     sort();
-    equation_of_state(half);
+    equation_of_state(half, bend);
+    particles.remember_rates();
     pack_walls();
     const PairInput in = pair_input();
     pairs(in);
@@ -384,23 +386,28 @@ struct Fluid::Implementation {
     evaluated = true;
   }
 
+  /// Predict, evaluate once, correct: kick-drift-kick with rates taken at a predicted state. A predictor by the last rates
+  /// alone makes waves grow by a relative 0.27 (omega dt)^4 a step; extrapolating them by a sixth of their last change
+  /// cancels that term (amplitude error O((omega dt)^6), stable to omega dt = 0.45 undamped), at no further evaluation.
   void step(double dt) {
-    if (!evaluated) evaluate(0.0);
+    if (!evaluated) evaluate(0.0, 0.0);
     kick_and_drift(dt);
     evaluation_time = time + dt;
-    evaluate(0.5 * dt);
+    evaluate(0.5 * dt, steps > 0 ? dt * std::min(2.0, dt / last_step) / 6.0 : 0.0);
     {
       const auto timer = timers.measure("integration");
       half_kick(dt);
     }
     time += dt;
+    last_step = dt;
     ++steps;
   }
+  double last_step = 0;
 
   // ---- What others ask ------------------------------------------------------------------------------------------------
 
   StepLimit step_limit() {
-    if (!evaluated) evaluate(0.0);
+    if (!evaluated) evaluate(0.0, 0.0);
     StepLimit limit;
     const Numerics& numerics = settings.numerics;
     limit.step = std::numeric_limits<double>::infinity();

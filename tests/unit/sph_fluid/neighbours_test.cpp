@@ -41,12 +41,14 @@ struct Case {
   int wall;                  // 0: none, 1: free slip, 2: no slip, 3: both, moving
 };
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 Sample make(const Case& c) {
   Dice dice(1 + c.dimension);
   Sample sample;
   sample.dimension = c.dimension;
   sample.kernel = c.kernel;
-  const double dx = 0.1, h = (c.kernel == KernelName::gaussian ? 1.2 : 1.5) * dx;
+  const double dx = 0.1, h = (c.kernel == KernelName::gaussian ? 1.21 : 1.51) * dx;  // no lattice distance on the support's edge
   for (int a = 0; a < 3; ++a) sample.mirror[a] = c.mirror[a];
   const Vec3 size(c.dimension == 1 ? 6.0 : 0.9, c.dimension > 1 ? 0.8 : 0.0, c.dimension > 2 ? 0.7 : 0.0);
   const Vec3 low = c.mirror[0] || c.mirror[1] || c.mirror[2] ? Vec3(0, 0, 0) : Vec3(-0.2, c.dimension > 1 ? -0.3 : 0.0, c.dimension > 2 ? 0.4 : 0.0);
@@ -115,12 +117,13 @@ class PairLoop : public ::testing::TestWithParam<Case> {};
 
 TEST_P(PairLoop, IsTheBruteForceSum) {
   const Sample sample = make(GetParam());
+  const Result wanted = brute_force(sample, run(sample));
+  ASSERT_GT(wanted.interactions, 0);
   for (const char* level : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
     SCOPED_TRACE(level);
     const AtLevel at(level);
     const Result got = run(sample);
-    const Result wanted = brute_force(sample, got);
-    ASSERT_GT(wanted.interactions, 0);
+    for (std::size_t i = 0; i < got.rates.size(); ++i) ASSERT_EQ(got.particles[i].x, wanted.particles[i].x);
     expect_same(got, wanted, tolerance_of(sample.kernel));
   }
 }

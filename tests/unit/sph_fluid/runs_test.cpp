@@ -1,0 +1,248 @@
+// Runs as a user sees them: reproducibility, what can be read off, and how a run that goes wrong ends.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/errors.hpp"
+#include "scenes.hpp"
+
+namespace undex::sph::testing {
+namespace {
+
+Settings bubble(int threads, SchemeName scheme, double spacing = 0.025) {
+  Settings settings;
+  settings.lattice.spacing = spacing;
+  settings.lattice.jitter = 0.1;
+  const Sphere ball{Vec3::Zero(), 0.15};
+  const Vec3 low(-0.3, -0.4, -0.4), high(0.3, 0.4, 0.4);
+  settings.bodies = {body("water", Shape{Box{low, high}, {ball}}, "water-tait"), body("bubble", Shape{ball, {}}, "bubble-gas")};
+  settings.bodies[1].variable_h = true;
+  settings.walls = {box_wall(low, high)};
+  settings.symmetry.axis = {true, true, false};
+  settings.numerics.threads = threads;
+  settings.numerics.scheme = scheme;
+  return settings;
+}
+
+/// Bit for bit: positions, velocities, densities and the ledger.
+TEST(Runs, DoNotDependOnTheNumberOfThreads) {
+  for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann}) {
+    std::vector<double> positions, velocities, densities, ids;
+    Ledger ledger;
+    for (const int threads : {1, 2, 3}) {
+      Fluid fluid(bubble(threads, scheme));
+      ASSERT_GT(fluid.particle_count(), 4096u) << "too few for the threads to share";
+      for (int k = 0; k < 8; ++k) fluid.step(fluid.step_limit().step);
+      if (threads == 1) {
+        positions = fluid.field("position");
+        velocities = fluid.field("velocity");
+        densities = fluid.field("density");
+        ids = fluid.field("id");
+        ledger = fluid.ledger();
+        continue;
+      }
+      EXPECT_EQ(fluid.field("id"), ids) << threads << " threads";
+      EXPECT_EQ(fluid.field("position"), positions) << threads << " threads";
+      EXPECT_EQ(fluid.field("velocity"), velocities) << threads << " threads";
+      EXPECT_EQ(fluid.field("density"), densities) << threads << " threads";
+      EXPECT_EQ(fluid.ledger().kinetic, ledger.kinetic);
+      EXPECT_EQ(fluid.ledger().internal, ledger.internal);
+      EXPECT_EQ(fluid.ledger().dissipated, ledger.dissipated);
+    }
+  }
+}
+
+TEST(Runs, RepeatBitForBit) {
+  std::vector<double> first;
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    Fluid fluid(bubble(2, SchemeName::monaghan));
+    for (int k = 0; k < 3; ++k) fluid.step(fluid.step_limit().step);
+    if (repeat == 0) first = fluid.field("velocity");
+    EXPECT_EQ(fluid.field("velocity"), first);
+  }
+}
+
+/// Two fluids in one program, each with its own number of threads.
+TEST(Runs, FluidsDoNotShareThreads) {
+  Fluid one(bubble(1, SchemeName::monaghan, 0.05));
+  Fluid four(bubble(4, SchemeName::monaghan, 0.05));
+  for (int k = 0; k < 2; ++k) {
+    const double dt = one.step_limit().step;
+    one.step(dt);
+    four.step(dt);
+  }
+  EXPECT_EQ(one.field("velocity"), four.field("velocity"));
+}
+
+TEST(Runs, MassAndCountsStay) {
+  Fluid fluid(bubble(2, SchemeName::monaghan, 0.05));
+  const double mass = fluid.ledger().mass;
+  const std::vector<std::size_t> counts = fluid.particles_by_body();
+  ASSERT_EQ(counts.size(), 2u);
+  EXPECT_EQ(counts[0] + counts[1], fluid.particle_count());
+  EXPECT_GT(counts[1], 0u);
+  for (int k = 0; k < 20; ++k) fluid.step(fluid.step_limit().step);
+  EXPECT_NEAR(fluid.ledger().mass, mass, 1e-14 * mass);
+  EXPECT_EQ(fluid.particles_by_body(), counts);
+  EXPECT_EQ(fluid.steps(), 20);
+  EXPECT_GT(fluid.neighbour_interactions(), 20ll * 30 * (long long)(fluid.particle_count()));
+  EXPECT_LT(fluid.neighbour_interactions(), 22ll * 200 * (long long)(fluid.particle_count()));
+}
+
+// ---- The step ------------------------------------------------------------------------------------------------------
+
+TEST(StepLimit, NamesItsOwner) {
+  Fluid fluid(bubble(1, SchemeName::monaghan, 0.05));
+  const StepLimit limit = fluid.step_limit();
+  EXPECT_TRUE(limit.criterion == "Courant" || limit.criterion == "force") << limit.criterion;
+  EXPECT_TRUE(limit.body == "water" || limit.body == "bubble");
+  const std::vector<Vec3> start = by_id(fluid, "position");
+  EXPECT_LT((start.at(limit.particle) - limit.position).norm(), 1e-12);
+  EXPECT_GT(limit.step, 0.0);
+}
+
+TEST(StepLimit, QuietWaterIsCourant) {
+  Settings settings;
+  settings.dimension = 1;
+  settings.lattice.spacing = 0.01;
+  settings.bodies = {body("water", box(Vec3(0, 0, 0), Vec3(1, 1, 1)), "water-tait")};
+  settings.walls = {box_wall(Vec3(0, -9, -9), Vec3(1, 9, 9))};
+  settings.numerics.threads = 1;
+  const StepLimit limit = Fluid(settings).step_limit();
+  EXPECT_EQ(limit.criterion, "Courant");
+  EXPECT_EQ(limit.body, "water");
+  // Proportional to the spacing and to the Courant number.
+  settings.lattice.spacing = 0.005;
+  EXPECT_NEAR(Fluid(settings).step_limit().step, 0.5 * limit.step, 1e-9 * limit.step);
+  settings.numerics.courant *= 0.5;
+  EXPECT_NEAR(Fluid(settings).step_limit().step, 0.25 * limit.step, 1e-9 * limit.step);
+  // Never beyond a sound wave's way across the smoothing length.
+  EXPECT_LT(limit.step * 1538.0, 0.3 * 1.5 * 0.01 * (1 + 1e-9));
+  settings.numerics.fixed_step = 1e-8;
+  EXPECT_EQ(Fluid(settings).step_limit().step, 1e-8);
+  EXPECT_EQ(Fluid(settings).step_limit().criterion, "fixed");
+}
+
+// ---- How a run ends badly ------------------------------------------------------------------------------------------
+
+/// Steps far too long: the run stops by name, it neither crashes nor goes on with NaN.
+TEST(NumericalStops, NameParticleAndBody) {
+  for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann})
+    for (const double dt : {1e-3, 1.0, 1e5, 1e150}) {
+      Settings settings = bubble(2, scheme, 0.1);
+      settings.numerics.fixed_step = dt;
+      Fluid fluid(settings);
+      std::string message;
+      try {
+        for (int k = 0; k < 400 && message.empty(); ++k) fluid.step(fluid.step_limit().step);
+      } catch (const NumericalStop& stop) {
+        message = stop.what();
+      }
+      if (message.empty()) {
+        // It may survive, but not with values that are not numbers.
+        for (const char* name : {"position", "velocity", "density", "pressure"})
+          for (const double value : fluid.field(name)) ASSERT_TRUE(std::isfinite(value)) << name << ", dt " << dt;
+        continue;
+      }
+      EXPECT_NE(message.find("step"), std::string::npos) << message;
+      EXPECT_NE(message.find("particle"), std::string::npos) << message;
+      EXPECT_TRUE(message.find("water") != std::string::npos || message.find("bubble") != std::string::npos) << message;
+    }
+}
+
+/// A run whose densities or velocities overflow must be caught whatever the field.
+TEST(NumericalStops, HappenAtAll) {
+  Settings settings = bubble(1, SchemeName::monaghan, 0.1);
+  settings.numerics.fixed_step = 1e150;
+  Fluid fluid(settings);
+  EXPECT_THROW(
+      for (int k = 0; k < 50; ++k) fluid.step(fluid.step_limit().step), NumericalStop);
+}
+
+// ---- What can be read off --------------------------------------------------------------------------------------------
+
+Settings uniform() {
+  Settings settings;
+  settings.dimension = 2;
+  settings.lattice.spacing = 0.05;
+  settings.bodies = {body("water", box(Vec3(0, 0, 0), Vec3(1, 1, 1)), "water-tait")};
+  settings.bodies[0].pressure = 3e7;
+  settings.bodies[0].velocity = {7, -2, 0};
+  settings.symmetry.axis[0] = true;
+  settings.numerics.threads = 1;
+  return settings;
+}
+
+TEST(Probe, UniformFlow) {
+  Fluid fluid(uniform());
+  fluid.step_limit();
+  const double rho = materials::density_at(uniform().bodies[0].material.law, 3e7, 0);
+  for (const Vec3& x : {Vec3(0.5, 0.5, 0), Vec3(0.513, 0.777, 0), Vec3(0.98, 0.97, 0)}) {
+    const PointValues values = fluid.at(x);
+    EXPECT_GT(values.neighbours, 3);
+    EXPECT_NEAR(values.pressure, 3e7, 1e-6 * 3e7);
+    EXPECT_NEAR(values.density, rho, 1e-9 * rho);
+    EXPECT_NEAR(values.velocity[0], 7, 1e-9);
+    EXPECT_NEAR(values.velocity[1], -2, 1e-9);
+    EXPECT_EQ(values.void_fraction, 0.0);
+  }
+  // On the plane the normal velocity averages out; the pressure does not.
+  EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).velocity[0], 0.0, 1e-9);
+  EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).velocity[1], -2.0, 1e-9);
+  EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).pressure, 3e7, 30);
+  const PointValues outside = fluid.at(Vec3(5, 5, 0));
+  EXPECT_EQ(outside.neighbours, 0);
+  EXPECT_EQ(outside.pressure, 0.0);
+}
+
+/// Output at time zero, before anybody asked for a step.
+TEST(Probe, ValidFromConstructionOn) {
+  Fluid fluid(uniform());
+  EXPECT_NEAR(fluid.at(Vec3(0.5, 0.5, 0)).pressure, 3e7, 30);
+  for (const double p : fluid.field("pressure")) ASSERT_NEAR(p, 3e7, 30);
+  for (const double h : fluid.field("smoothing_length")) ASSERT_NEAR(h, 1.5 * 0.05, 1e-12);
+  EXPECT_NEAR(fluid.maximum_pressure(), 3e7, 30);
+  EXPECT_NEAR(fluid.maximum_speed(), std::hypot(7, 2), 1e-12);
+}
+
+TEST(Fields, ShapesAndValues) {
+  Fluid fluid(bubble(1, SchemeName::monaghan, 0.1));
+  fluid.step_limit();
+  const std::size_t n = fluid.particle_count();
+  for (const char* name : {"position", "velocity"}) EXPECT_EQ(fluid.field(name).size(), 3 * n);
+  for (const char* name : {"pressure", "density", "void_fraction", "energy", "smoothing_length", "material", "sound_speed", "mass", "id"})
+    EXPECT_EQ(fluid.field(name).size(), n) << name;
+  std::vector<double> ids = fluid.field("id");
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(ids[i], double(i));
+  const std::vector<double> material = fluid.field("material"), rho = fluid.field("density"), energy = fluid.field("energy"),
+                            p = fluid.field("pressure");
+  std::size_t gas = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_TRUE(material[i] == 0.0 || material[i] == 1.0);
+    gas += material[i] == 1.0;
+    EXPECT_NEAR(rho[i], material[i] == 1.0 ? 1770.0 : 1000.0, 1e-9);
+    EXPECT_NEAR(p[i], material[i] == 1.0 ? 2e9 : 1e5, 1);
+    if (material[i] == 1.0) {
+      EXPECT_NEAR(energy[i], 2e9 / 1770.0, 1e-3);
+    }
+  }
+  EXPECT_EQ(gas, fluid.particles_by_body()[1]);
+  double mass = 0;
+  for (const double m : fluid.field("mass")) mass += m;
+  EXPECT_NEAR(mass, fluid.ledger().mass, 1e-12 * mass);
+}
+
+TEST(Fields, UnknownNamesAreRefused) {
+  Fluid fluid(uniform());
+  try {
+    fluid.field("presure");
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("presure"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace undex::sph::testing
