@@ -9,7 +9,7 @@ namespace undex::fem {
 namespace {
 
 // Cells below this count are not worth waking threads for.
-constexpr std::size_t worth_threads = 64;
+constexpr std::size_t worth_threads = 512;
 // A cell that has strained by this much gets its highest frequency anew.
 constexpr double frequency_strain = 0.01;
 

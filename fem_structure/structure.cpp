@@ -17,7 +17,7 @@
 namespace undex::fem {
 namespace {
 
-constexpr std::size_t worth_threads = 512;  // nodes
+constexpr std::size_t worth_threads = 4096;  // nodes: fewer are not worth waking threads for
 
 std::string listed(const Grid& grid) {
   std::string names;

@@ -411,6 +411,9 @@ struct Fluid::Implementation {
     StepLimit limit;
     const Numerics& numerics = settings.numerics;
     limit.step = std::numeric_limits<double>::infinity();
+    // Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, eq. 10.2, for a viscosity; a Riemann flux moves with the fluid.
+    const bool viscous = numerics.scheme == SchemeName::monaghan;
+    const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
     std::uint32_t worst = 0;
     bool force = false, finite = true;
 #pragma omp parallel
@@ -422,7 +425,7 @@ struct Fluid::Implementation {
       for (std::uint32_t i = 0; i < particles.size(); ++i) {
         const PackedParticle& q = packed[i];
         const double a2 = particles.ax[i] * particles.ax[i] + particles.ay[i] * particles.ay[i] + particles.az[i] * particles.az[i];
-        const double signal = q.c + 0.6 * (numerics.alpha * q.c + numerics.beta * particles.closing[i]);
+        const double signal = q.c + alpha * q.c + beta * particles.closing[i];
         const double courant = numerics.courant * q.h / signal;
         const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
         ok = ok && std::isfinite(a2) && std::isfinite(signal);

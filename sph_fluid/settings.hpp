@@ -68,14 +68,14 @@ struct Symmetry {
   std::array<bool, 3> axis{false, false, false};
 };
 
-/// Artificial viscosity and steps.
+/// Kernel, pair scheme and steps.
 struct Numerics {
   KernelName kernel = KernelName::wendland_c2;
-  SchemeName scheme = SchemeName::monaghan;
+  SchemeName scheme = SchemeName::riemann;
   double eta = 1.5;           ///< h/dx
   double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6)
   double beta = 10.0;         ///< and the quadratic one
-  double courant = 0.3;       ///< dt = courant * min over particles of dx_i/(c + closing speed)
+  double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
   double h_low = 0.9, h_high = 2.2;  ///< bounds of h/h0 where it follows density
   int threads = 0;            ///< 0: all the machine has

@@ -181,12 +181,12 @@ TEST(PairLoops, CountsTheNeighboursOfAKdTree) {
   Dice dice(7);
   Sample sample;
   sample.mirror[0] = true;
-  const double dx = 0.02, h = 1.5 * dx;
+  const double dx = 0.03, h = 1.5 * dx;
   Set set{{}, false, 2 * dx};
-  for (int k = 0; k < 30000; ++k)
+  for (int k = 0; k < 10000; ++k)
     set.particles.push_back(random_particle(dice, {dice.between(0, 0.7), dice.between(0, 0.5), dice.between(0, 0.6)}, 3, h, dx, 1000, 1e8, 1500));
   for (int k = 0; k < 5; ++k)
-    set.particles.push_back(random_particle(dice, {dice.between(0, 300), dice.between(-300, 300), dice.between(-300, 300)}, 3, h, dx, 1000, 1e8, 1500));
+    set.particles.push_back(random_particle(dice, {dice.between(0, 3), dice.between(-3, 3), dice.between(-3, 3)}, 3, h, dx, 1000, 1e8, 1500));
   sample.sets.push_back(set);
 
   Cloud cloud;

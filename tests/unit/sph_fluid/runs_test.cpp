@@ -135,7 +135,7 @@ TEST(NumericalStops, NameParticleAndBody) {
       Fluid fluid(settings);
       std::string message;
       try {
-        for (int k = 0; k < 400 && message.empty(); ++k) fluid.step(fluid.step_limit().step);
+        for (int k = 0; k < 30 && message.empty(); ++k) fluid.step(fluid.step_limit().step);
       } catch (const NumericalStop& stop) {
         message = stop.what();
       }

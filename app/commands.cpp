@@ -1,0 +1,149 @@
+#include "app/commands.hpp"
+
+#include <omp.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "app/describe.hpp"
+#include "app/run.hpp"
+#include "app/version.hpp"
+#include "core/errors.hpp"
+#include "materials/library.hpp"
+#include "scene/scene.hpp"
+
+namespace undex::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<scene::Override> parsed(const std::vector<std::string>& texts) {
+  std::vector<scene::Override> overrides;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("-P " + text + ": write key=value, e.g. -P resolution.spacing=0.001");
+    const auto trimmed = [](std::string part) {
+      const auto first = part.find_first_not_of(" \t");
+      if (first == std::string::npos) return std::string();
+      return part.substr(first, part.find_last_not_of(" \t") - first + 1);
+    };
+    overrides.push_back({trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))});
+  }
+  return overrides;
+}
+
+scene::Scene read_scene(const SceneArguments& arguments) {
+  scene::Scene scene = scene::read(arguments.scene, parsed(arguments.overrides));
+  if (arguments.threads > 0) scene.fluid.numerics.threads = arguments.threads;
+  if (scene.fluid.numerics.threads > 0) omp_set_num_threads(scene.fluid.numerics.threads);
+  return scene;
+}
+
+std::string whole_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw FileError(file.string() + ": cannot be read any more; check the file");
+  return text.str();
+}
+
+/// Makes the folder ready to be written to; refuses one that holds something.
+void prepare_output(const fs::path& folder, bool force) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
+  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
+    throw UsageError("the output folder " + folder.string() +
+                     " is not empty; name another one with -o, or write over it with --force");
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
+}
+
+/// Folders that may hold scenes, the nearest first.
+std::vector<fs::path> case_folders() {
+  std::vector<fs::path> folders;
+  if (const char* given = std::getenv("UNDEX_CASES"); given && *given) folders.emplace_back(given);
+  folders.emplace_back("cases");
+  folders.emplace_back(UNDEX_CASES_FOLDER);
+  return folders;
+}
+
+template <class Set>
+void print_set(const Set& set) {
+  std::printf("%s\n  %s\n ", set.name.c_str(), set.source.c_str());
+  int column = 1;
+  for (const auto& [name, value] : materials::parameters(set)) {
+    char text[100];
+    const int length = std::snprintf(text, sizeof text, " %s = %.6g;", name.c_str(), value);
+    if (column + length > 118) {
+      std::printf("\n ");
+      column = 1;
+    }
+    std::printf("%s", text);
+    column += length;
+  }
+  std::printf("\n\n");
+}
+
+}  // namespace
+
+int run_scene(const RunArguments& arguments) {
+  const scene::Scene scene = read_scene(arguments);
+  RunOptions options;
+  options.output = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
+  options.threads = scene.fluid.numerics.threads;
+  options.verbosity = arguments.verbosity;
+  options.scene_text = whole_text(scene.file);
+  options.program = version_line();
+  prepare_output(options.output, arguments.force);
+  return run(scene, options);
+}
+
+int check_scene(const SceneArguments& arguments) {
+  std::printf("%s", describe(read_scene(arguments)).c_str());
+  return exit_done;
+}
+
+int print_materials() {
+  std::printf("Fluids\n\n");
+  for (const std::string& name : materials::fluid_names()) print_set(*materials::find_fluid(name));
+  std::printf("Solids\n\n");
+  for (const std::string& name : materials::solid_names()) print_set(*materials::find_solid(name));
+  return exit_done;
+}
+
+int list_scenes() {
+  std::map<std::string, std::string> lines;
+  for (const fs::path& folder : case_folders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (!fs::is_regular_file(entry.path() / "case.toml", error)) continue;
+      const std::string name = entry.path().filename().string();
+      if (lines.contains(name)) continue;
+      std::string title;
+      try {
+        title = scene::read(entry.path()).title;
+      } catch (const std::exception&) {
+        title = "(cannot be read: undex check says why)";
+      }
+      char line[400];
+      std::snprintf(line, sizeof line, "%-18s %s\n%-18s %s\n", name.c_str(), title.c_str(), "",
+                    entry.path().lexically_normal().c_str());
+      lines[name] = line;
+    }
+  }
+  if (lines.empty()) throw UsageError("no scenes found; set UNDEX_CASES to the folder that holds them");
+  for (const auto& [name, line] : lines) std::printf("%s", line.c_str());
+  return exit_done;
+}
+
+int print_version(bool json) {
+  std::printf("%s\n", (json ? version_json() : version_line()).c_str());
+  return exit_done;
+}
+
+}  // namespace undex::app

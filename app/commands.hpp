@@ -1,0 +1,28 @@
+// What each command of the program does. Each returns the exit code; mistakes are thrown.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace undex::app {
+
+struct SceneArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  ///< "key=value"
+  int threads = 0;
+};
+
+struct RunArguments : SceneArguments {
+  std::string output;                  ///< empty: out/<scene name>
+  int verbosity = 0;
+  bool force = false;                  ///< an output folder that is not empty may be overwritten
+};
+
+int run_scene(const RunArguments& arguments);
+int check_scene(const SceneArguments& arguments);
+int print_materials();
+int list_scenes();
+int print_version(bool json);
+
+}  // namespace undex::app

@@ -1,0 +1,87 @@
+// The command-line program: arguments in, exit code out, every mistake reported in one place.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <new>
+
+#include "app/commands.hpp"
+#include "core/errors.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::app;
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("scene", arguments.scene, "scene file (.toml), or a folder with case.toml")->required();
+  command.add_option_function<std::string>(
+             "-P,--set", [&](const std::string& text) { arguments.overrides.push_back(text); },
+             "key=value: override a key of the scene by its dotted path; may be repeated")
+      ->trigger_on_parse();
+  command.add_option_function<std::string>(
+             "--tend", [&](const std::string& text) { arguments.overrides.push_back("end_time=" + text); }, "end time [s]")
+      ->trigger_on_parse();
+  command.add_option("-j,--threads", arguments.threads, "threads; 0: the scene's choice, or all the machine has")
+      ->check(CLI::Range(0, 4096));
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App program("Close-in underwater explosions: SPH water coupled to a deforming structure", "undex");
+  program.require_subcommand(1);
+
+  RunArguments run_arguments;
+  CLI::App* run = program.add_subcommand("run", "compute a scene");
+  add_scene_arguments(*run, run_arguments);
+  run->add_option("-o,--output", run_arguments.output, "output folder; default: out/<scene name>");
+  CLI::Option* quiet = run->add_flag_callback("-q,--quiet", [&] { run_arguments.verbosity = -1; }, "print nothing but errors");
+  run->add_flag_callback("-v,--verbose", [&] { run_arguments.verbosity = 1; }, "print every step")->excludes(quiet);
+  run->add_flag("--force", run_arguments.force, "write into an output folder that is not empty");
+
+  SceneArguments check_arguments;
+  CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
+  add_scene_arguments(*check, check_arguments);
+
+  CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
+  CLI::App* list = program.add_subcommand("list", "the scenes shipped");
+  CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
+  bool json = false;
+  version->add_flag("--json", json, "as a JSON object");
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? exit_done : exit_usage;  // prints help or what is wrong
+  }
+  if (*run) return run_scene(run_arguments);
+  if (*check) return check_scene(check_arguments);
+  if (*materials) return print_materials();
+  if (*list) return list_scenes();
+  if (*version) return print_version(json);
+  return exit_usage;
+}
+
+int failed(ExitCode code, const char* message) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s\n", message);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const SceneError& error) {
+    return failed(exit_usage, error.what());
+  } catch (const UsageError& error) {
+    return failed(exit_usage, error.what());
+  } catch (const NumericalStop& error) {
+    return failed(exit_numerics, (std::string("the numerics stopped the run: ") + error.what()).c_str());
+  } catch (const FileError& error) {
+    return failed(exit_internal, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(exit_internal, "out of memory; take a larger spacing, or symmetry planes");
+  } catch (const std::exception& error) {
+    return failed(exit_internal, (std::string("internal error: ") + error.what()).c_str());
+  }
+}

@@ -1,0 +1,30 @@
+#include "app/version.hpp"
+
+#include "sph_fluid/fluid.hpp"
+
+namespace undex::app {
+namespace {
+
+#if defined(__clang__)
+const char* const compiler = "clang " __clang_version__;
+#else
+const char* const compiler = "g++ " __VERSION__;
+#endif
+
+std::string build_type() { return *UNDEX_BUILD_TYPE ? UNDEX_BUILD_TYPE : "none"; }
+
+}  // namespace
+
+std::string version_line() {
+  const std::string git = UNDEX_GIT;
+  return std::string("undex ") + UNDEX_VERSION + (git.empty() ? "" : " (" + git + ")") + ", " + compiler + ", " + build_type() +
+         ", " + sph::cpu_level();
+}
+
+// None of these texts holds a character that JSON would escape.
+std::string version_json() {
+  return std::string("{\"version\": \"") + UNDEX_VERSION + "\", \"git\": \"" + UNDEX_GIT + "\", \"compiler\": \"" + compiler +
+         "\", \"build_type\": \"" + build_type() + "\", \"cpu_level\": \"" + sph::cpu_level() + "\"}";
+}
+
+}  // namespace undex::app

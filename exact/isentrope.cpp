@@ -1,0 +1,161 @@
+// Isentropes by integration of the law, and shock states by bisection.
+#include "exact/isentrope.hpp"
+
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+#include <variant>
+
+namespace undex::exact {
+
+namespace {
+
+constexpr double tolerance = 1e-13;
+
+double barotropic_energy(const materials::FluidLaw& law, double density, double otherwise) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (std::remove_cvref_t<decltype(l)>::uses_energy)
+          return otherwise;
+        else
+          return l.barotropic_energy(density);
+      },
+      law);
+}
+
+/// Lowest pressure of a law that cavitates; minus infinity of others.
+double floor_pressure(const materials::FluidLaw& law) {
+  if (const auto* tait = std::get_if<materials::TaitWater>(&law))
+    if (tait->parameters().cavitation != materials::Cavitation::none)
+      return tait->evaluate(tait->floor_density(), 0.0).pressure;
+  if (const auto* water = std::get_if<materials::MieGruneisenWater>(&law))
+    if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
+  return -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+materials::PressureSound true_pressure_sound(const materials::FluidLaw& law, double density, double energy) {
+  materials::PressureSound s =
+      std::visit([&](const auto& l) { return l.evaluate(density, energy); }, law);
+  double gamma = 0.0;
+  if (const auto* gas = std::get_if<materials::BarotropicGas>(&law)) gamma = gas->parameters().gamma;
+  if (const auto* gas = std::get_if<materials::IdealGas>(&law)) gamma = gas->parameters().gamma;
+  if (gamma > 0.0) s.sound_speed = std::sqrt(gamma * std::max(s.pressure, 0.0) / density);
+  return s;
+}
+
+Isentrope::Isentrope(const materials::FluidLaw& law, double density, double energy)
+    : law_(law), density_(density), energy_(barotropic_energy(law, density, energy)) {
+  const double floor = floor_pressure(law_);
+  const double first_sound = true_pressure_sound(law_, density_, energy_).sound_speed;
+  double end = -150.0;  // ln(rho/rho_start), far beyond the end by sound speed of every gas in use
+  std::vector<double> stops;
+  if (const auto* tait = std::get_if<materials::TaitWater>(&law_)) {
+    if (tait->liquid_limit() > 0.0) stops.push_back(std::log(tait->liquid_limit() / density_));
+    if (tait->floor_density() > 0.0) {
+      end = std::log(tait->floor_density() / density_);
+      on_floor_ = true;
+    }
+  }
+  points_.push_back({0.0, {0.0, energy_}});
+  if (end >= 0.0 || state(points_.back()).pressure <= floor) {
+    on_floor_ = true;  // it lies on the floor already
+    return;
+  }
+  stops.push_back(end);
+
+  const auto f = [this](double s, const OdeState<2>& y) { return slope(s, y); };
+  bool finished = false;
+  for (const double stop : stops) {
+    if (finished || stop >= points_.back().s) continue;
+    const bool tait_floor = on_floor_;
+    const auto ended = [&](const Point& point) {
+      const IsentropeState s = state(point);
+      return s.sound < 1e-7 * first_sound || (!tait_floor && s.pressure <= floor);
+    };
+    const Point from = points_.back();
+    const auto part = integrate<2>(f, from.s, stop, from.y, {first_sound, 1e-30}, tolerance, 0.5, ended);
+    points_.insert(points_.end(), part.begin() + 1, part.end());
+    finished = ended(points_.back());
+  }
+  if (!on_floor_ && state(points_.back()).pressure <= floor) {
+    // The floor was crossed in the last step: the longest step that stays above it.
+    on_floor_ = true;
+    const double crossed = points_.back().s;
+    points_.pop_back();
+    const Point from = points_.back();
+    double high = from.s, low = crossed;
+    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+      (state_after(from, middle).pressure > floor ? high : low) = middle;
+    OdeState<2> error;
+    points_.push_back({high, runge_kutta_step(f, from.s, from.y, high - from.s, error)});
+  }
+}
+
+OdeState<2> Isentrope::slope(double s, const OdeState<2>& y) const {
+  const double rho = density_ * std::exp(s);
+  const auto local = true_pressure_sound(law_, rho, y[1]);
+  return {local.sound_speed, local.pressure / rho};
+}
+
+IsentropeState Isentrope::state(const Point& point) const {
+  const double rho = point.s == 0.0 ? density_ : density_ * std::exp(point.s);
+  const double energy = barotropic_energy(law_, rho, point.y[1]);
+  const auto local = true_pressure_sound(law_, rho, energy);
+  return {rho, local.pressure, local.sound_speed, energy, point.y[0]};
+}
+
+IsentropeState Isentrope::state_after(const Point& from, double s) const {
+  OdeState<2> error;
+  const auto f = [this](double x, const OdeState<2>& y) { return slope(x, y); };
+  return state({s, runge_kutta_step(f, from.s, from.y, s - from.s, error)});
+}
+
+double Isentrope::riemann_limit() const {
+  const IsentropeState last = end();
+  if (on_floor_ || !(last.pressure > 0.0)) return last.riemann;
+  const double exponent = last.density * last.sound * last.sound / last.pressure;
+  return exponent > 1.0 ? last.riemann - 2.0 * last.sound / (exponent - 1.0) : last.riemann;
+}
+
+IsentropeState Isentrope::at_density(double density) const {
+  return find([](const IsentropeState& s) { return s.density; }, density);
+}
+
+IsentropeState Isentrope::at_pressure(double pressure) const {
+  return find([](const IsentropeState& s) { return s.pressure; }, pressure);
+}
+
+ShockState shock_to(const materials::FluidLaw& law, double density, double energy, double pressure) {
+  const double start = true_pressure_sound(law, density, energy).pressure;
+  const bool with_energy = materials::uses_energy(law);
+  const auto energy_at = [&](double rho) {
+    return with_energy ? energy + 0.5 * (pressure + start) * (1.0 / density - 1.0 / rho)
+                       : barotropic_energy(law, rho, 0.0);
+  };
+  const auto too_thin = [&](double rho) {
+    return true_pressure_sound(law, rho, energy_at(rho)).pressure < pressure;
+  };
+  double low = density, high = density;
+  while (too_thin(high)) {
+    low = high;
+    high *= 1.02;
+    // A void that closes may start from next to nothing.
+    if (high > 1e3 * std::max(density, 1e3)) {
+      std::ostringstream message;
+      message << "shock_to: the law does not reach " << pressure << " Pa from density " << density
+              << " kg/m^3 and energy " << energy << " J/kg";
+      throw std::domain_error(message.str());
+    }
+  }
+  for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+    (too_thin(middle) ? low : high) = middle;
+  const double volume_change = 1.0 / density - 1.0 / high;
+  const double flux = volume_change > 0.0
+                          ? std::sqrt((pressure - start) / volume_change)
+                          : density * true_pressure_sound(law, density, energy).sound_speed;
+  return {high, energy_at(high), flux};
+}
+
+}  // namespace undex::exact

@@ -1,0 +1,416 @@
+// Compatible staggered Lagrangian scheme in one dimension; equations and sources in the header.
+#include "exact/lagrangian_1d.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+#include <variant>
+
+#include "core/errors.hpp"
+
+namespace undex::exact {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument("Lagrangian1D: " + message); }
+
+template <class... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts);
+  return out.str();
+}
+
+void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOptions& options) {
+  if (dimension < 1 || dimension > 3) refuse(text("dimension must be 1, 2 or 3, got ", dimension));
+  if (layers.empty()) refuse("needs at least one layer");
+  if (!(options.courant > 0 && options.courant < 1))
+    refuse(text("the Courant number must lie between 0 and 1, got ", options.courant));
+  if (dimension > 1 && !(layers.front().inner >= 0))
+    refuse(text("radii begin at 0, got ", layers.front().inner, " m"));
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const Layer& layer = layers[k];
+    if (!(layer.outer > layer.inner))
+      refuse(text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
+    if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
+    if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
+    if (!(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
+    if (k > 0 && std::abs(layer.inner - layers[k - 1].outer) > 1e-12 * std::abs(layer.inner))
+      refuse(text("layer ", k, " begins at ", layer.inner, " m, but the one before it ends at ",
+                  layers[k - 1].outer, " m"));
+    if (layer.burn && !std::holds_alternative<materials::Jwl>(layer.law))
+      refuse(text("layer ", k, " burns, so its law must be that of detonation products (Jwl)"));
+  }
+}
+
+double first_width(double length, int cells, double ratio) {
+  if (ratio == 1.0) return length / cells;
+  return length * std::expm1(std::log(ratio)) / std::expm1(cells * std::log(ratio));
+}
+
+}  // namespace
+
+double grading(double length, int cells, double first) {
+  if (!(first > 0 && first < length && cells >= 2))
+    throw std::invalid_argument(text("grading: needs at least two cells and a first one shorter than ", length,
+                                     " m, got ", cells, " and ", first, " m"));
+  double low = 1e-3, high = 1e3;  // the first width falls with the ratio
+  for (double middle = 1.0; middle > low && middle < high; middle = std::sqrt(low * high))
+    (first_width(length, cells, middle) > first ? low : high) = middle;
+  return std::sqrt(low * high);
+}
+
+Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary inner, Boundary outer,
+                           const Lagrangian1DOptions& options)
+    : dimension_(dimension), layers_(std::move(layers)), inner_(inner), outer_(outer), options_(options) {
+  check(dimension_, layers_, options_);
+  area_factor_ = dimension_ == 1 ? 1.0 : dimension_ * std::numbers::pi * (dimension_ == 2 ? 1.0 : 4.0 / 3.0);
+
+  r_.push_back(layers_.front().inner);
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    const Layer& layer = layers_[k];
+    Block block{cells(), 0, 0.0};
+    if (const auto* tait = std::get_if<materials::TaitWater>(&layer.law))
+      if (tait->parameters().cavitation == materials::Cavitation::schmidt)
+        block.stiffest_sound = tait->parameters().mixture.liquid_sound;
+    double width = first_width(layer.outer - layer.inner, layer.cells, layer.ratio);
+    for (int i = 0; i < layer.cells; ++i, width *= layer.ratio) {
+      const double from = r_.back(), to = i + 1 < layer.cells ? from + width : layer.outer;
+      r_.push_back(to);
+      start_volume_.push_back(volume_to(to) - volume_to(from));
+      start_density_.push_back(layer.density);
+      cell_mass_.push_back(layer.density * start_volume_.back());
+      cell_layer_.push_back(static_cast<int>(k));
+      start_middle_.push_back(0.5 * (from + to));
+      e_.push_back(std::visit(
+          [&](const auto& law) {
+            if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy)
+              return layer.energy;
+            else
+              return law.barotropic_energy(layer.density);
+          },
+          layer.law));
+    }
+    block.end = cells();
+    blocks_.push_back(block);
+  }
+
+  const int n = cells();
+  u_.assign(n + 1, 0.0);
+  node_mass_.assign(n + 1, 0.0);
+  for (int i = 0; i < n; ++i)
+    for (const int node : {i, i + 1}) {
+      node_mass_[node] += 0.5 * cell_mass_[i];
+      u_[node] += 0.5 * cell_mass_[i] * layers_[cell_layer_[i]].velocity;
+    }
+  for (int i = 0; i <= n; ++i) {
+    const bool held = (i == 0 && inner_ == Boundary::rigid) || (i == n && outer_ == Boundary::rigid);
+    u_[i] = held ? 0.0 : u_[i] / node_mass_[i];
+  }
+  inner_start_velocity_ = u_[0];
+  outer_start_velocity_ = u_[n];
+
+  rho_ = start_density_;
+  for (auto* field : {&p_, &q_, &c_, &viscous_sound_, &slope_}) field->assign(n, 0.0);
+  area_.assign(n + 1, 0.0);
+  pressures(n, 0.0, r_, u_, rho_, e_, p_, q_);
+  inner_start_pressure_ = p_[0];
+  outer_start_pressure_ = p_[n - 1];
+  r_new_ = r_;
+  u_new_ = u_;
+  rho_new_ = rho_;
+  e_new_ = e_;
+  p_new_ = p_;
+  q_new_ = q_;
+  active_ = n;
+  update_active();
+}
+
+double Lagrangian1D::volume_to(double radius) const {
+  if (dimension_ == 1) return radius;
+  const double square = radius * radius;
+  return area_factor_ / dimension_ * (dimension_ == 2 ? square : square * radius);
+}
+
+double Lagrangian1D::mean_area(double from, double to) const {
+  if (dimension_ == 1) return 1.0;
+  if (dimension_ == 2) return area_factor_ * 0.5 * (from + to);
+  return area_factor_ / 3.0 * (from * from + from * to + to * to);
+}
+
+double Lagrangian1D::middle(int cell) const {
+  if (dimension_ == 1) return 0.5 * (r_[cell] + r_[cell + 1]);
+  const double volume = 0.5 * (volume_to(r_[cell]) + volume_to(r_[cell + 1])) * dimension_ / area_factor_;
+  return dimension_ == 2 ? std::sqrt(volume) : std::cbrt(volume);
+}
+
+double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound) const {
+  if ((outer ? outer_ : inner_) == Boundary::free)
+    return outer ? options_.outer_pressure : options_.inner_pressure;
+  if (outer) return outer_start_pressure_ + rho * sound * (u - outer_start_velocity_);
+  return inner_start_pressure_ - rho * sound * (u - inner_start_velocity_);
+}
+
+void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,
+                             const std::vector<double>& rho, const std::vector<double>& e,
+                             std::vector<double>& p, std::vector<double>& q) {
+  for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
+    const Block& block = blocks_[k];
+    const int stop = std::min(block.end, end);
+    if (const auto& burn = layers_[k].burn) {
+      const auto& products = std::get<materials::Jwl>(layers_[k].law);
+      for (int i = block.begin; i < stop; ++i) {
+        // The part that burns by compression is not kept when the zone expands: kept, every oscillation of the
+        // unburned charge, however small, would burn some more of it, until it detonates of itself.
+        const double burned =
+            burn->fraction(Vec3(start_middle_[i], 0.0, 0.0), time, rho[i] / start_density_[i]);
+        const auto state = materials::burning(products, rho[i], e[i], burned);
+        p[i] = state.pressure;
+        c_[i] = viscous_sound_[i] = state.sound_speed;
+      }
+      continue;
+    }
+    std::visit(
+        [&](const auto& law) {
+          for (int i = block.begin; i < stop; ++i) {
+            const materials::PressureSound state = law.evaluate(rho[i], e[i]);
+            p[i] = state.pressure;
+            c_[i] = std::max(state.sound_speed, block.stiffest_sound);
+            // A void that closes meets no resistance but its inertia.
+            viscous_sound_[i] = law.void_fraction(rho[i], e[i]) > 0.0 ? 0.0 : c_[i];
+          }
+        },
+        layers_[k].law);
+  }
+
+  const int n = cells();
+  const int with_neighbour = std::min(end + 1, n);
+  for (int i = 0; i < with_neighbour; ++i) slope_[i] = (u[i + 1] - u[i]) / (r[i + 1] - r[i]);
+  for (int i = 0; i < end; ++i) {
+    const double closing = u[i] - u[i + 1];
+    q[i] = 0.0;
+    if (!(closing > 0.0)) continue;
+    if (mean_area(r[i + 1], r[i + 1]) * u[i + 1] >= mean_area(r[i], r[i]) * u[i]) continue;  // cell grows
+    double psi = 0.0;
+    if (options_.limiter) {
+      const double below = i > 0 ? slope_[i - 1] / slope_[i] : 1.0;
+      const double above = i + 1 < n ? slope_[i + 1] / slope_[i] : 1.0;
+      psi = std::max(0.0, std::min({0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0}));
+    }
+    q[i] = (1.0 - psi) * rho[i] * closing *
+           (options_.linear_viscosity * viscous_sound_[i] + options_.quadratic_viscosity * closing);
+  }
+}
+
+double Lagrangian1D::stable_step() const {
+  const int end = std::min(active_ + 1, cells());
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < end; ++i) {
+    const double width = r_[i + 1] - r_[i], change = std::abs(u_[i + 1] - u_[i]);
+    // Speed at which the artificial pressure spreads velocity over a cell, per q = rho b |du|.
+    const double b = q_[i] > 0.0 ? 2.0 * q_[i] / (rho_[i] * change) : 0.0;
+    const double speed = b + std::sqrt(b * b + c_[i] * c_[i]) + 2.0 * change;
+    shortest = std::min(shortest, width / speed);
+  }
+  shortest *= options_.courant;
+  return last_step_ > 0.0 ? std::min(shortest, 1.2 * last_step_) : shortest;
+}
+
+void Lagrangian1D::step(double dt) {
+  const int n = cells();
+  const int cell_end = std::min(active_ + 2, n);
+  const int node_end = cell_end + 1;
+  const bool held_inner = inner_ == Boundary::rigid, held_outer = outer_ == Boundary::rigid;
+
+  // Total pressures at the two ends outside of the mesh, at the start of the step.
+  double below = held_inner ? 0.0 : outside_pressure(false, u_[0], rho_[0], c_[0]);
+  double above = held_outer ? 0.0 : outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1]);
+  const auto accelerate = [&](const auto& total) {
+    for (int i = 0; i < node_end; ++i) {
+      const double inside = i > 0 ? total(i - 1) : below, outside = i < n ? total(i) : above;
+      u_new_[i] = u_[i] + dt / node_mass_[i] * area_[i] * (inside - outside);
+    }
+    if (held_inner) u_new_[0] = 0.0;
+    if (held_outer && node_end > n) u_new_[n] = 0.0;
+    for (int i = 0; i < node_end; ++i) r_new_[i] = r_[i] + 0.5 * dt * (u_[i] + u_new_[i]);
+  };
+  const auto compress = [&](const auto& total) {
+    double swept = area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
+    for (int i = 0; i < cell_end; ++i) {
+      const double next = area_[i + 1] * (0.5 * dt * (u_[i + 1] + u_new_[i + 1]));
+      e_new_[i] = e_[i] - total(i) * (next - swept) / cell_mass_[i];
+      swept = next;
+      // V = V_start and so rho = rho_start, to the bit, where nothing has moved.
+      const double volume = volume_to(r_new_[i + 1]) - volume_to(r_new_[i]);
+      rho_new_[i] = start_density_[i] * (start_volume_[i] / volume);
+    }
+  };
+
+  for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_[i]);
+  const auto total_old = [&](int i) { return p_[i] + q_[i]; };
+  accelerate(total_old);
+  compress(total_old);
+  const auto healthy = [&] {
+    for (int i = 0; i < cell_end; ++i)
+      if (!(rho_new_[i] > 0.0 && std::isfinite(rho_new_[i]) && std::isfinite(e_new_[i])))
+        throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: cell ", i,
+                                 " of layer ", cell_layer_[i], " near r = ", r_[i], " m has density ", rho_new_[i],
+                                 " kg/m^3 and energy ", e_new_[i], " J/kg; dt = ", dt, " s"));
+  };
+  healthy();
+  pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
+
+  if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0]));
+  if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1]));
+  for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_new_[i]);
+  const auto total_mean = [&](int i) { return 0.5 * (p_[i] + q_[i] + p_new_[i] + q_new_[i]); };
+  accelerate(total_mean);
+  compress(total_mean);
+  healthy();
+  if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
+  if (!held_outer && node_end > n) boundary_work_ += above * area_[n] * (0.5 * dt * (u_[n] + u_new_[n]));
+  pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
+
+  std::swap(r_, r_new_);
+  std::swap(u_, u_new_);
+  std::swap(rho_, rho_new_);
+  std::swap(e_, e_new_);
+  std::swap(p_, p_new_);
+  std::swap(q_, q_new_);
+  time_ += dt;
+  ++steps_;
+  update_active();
+}
+
+void Lagrangian1D::update_active() {
+  const int n = cells();
+  int least = 0;  // cells that are going to burn may light before anything reaches them
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    if (const auto& burn = layers_[k].burn)
+      for (const int cell : {blocks_[k].begin, blocks_[k].end - 1})
+        if (burn->fraction(Vec3(start_middle_[cell], 0.0, 0.0), time_, 1.0) < 1.0) least = blocks_[k].end;
+  // Grown by two nodes a step at most: predictor and corrector each carry the news one node further.
+  int node = steps_ == 0 ? n : std::min(active_ + 2, n);
+  for (; node > least; --node) {
+    if (u_[node] != 0.0) break;
+    if (node == n) {
+      if (outer_ == Boundary::rigid) continue;
+      if (p_[n - 1] + q_[n - 1] != outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1])) break;
+    } else if (node > 0 && p_[node - 1] + q_[node - 1] != p_[node] + q_[node]) {
+      break;
+    }
+  }
+  // Never smaller again: what lies beyond it has never been stepped, and is the same in state and scratch.
+  active_ = steps_ == 0 ? node : std::max(active_, node);
+}
+
+void Lagrangian1D::advance(double t_end) {
+  while (time_ < t_end) {
+    double dt = stable_step();
+    const double left = t_end - time_;
+    // Two even steps rather than a full and a minute one.
+    const bool last = left <= dt * (1.0 + 1e-10);
+    if (last) {
+      dt = left;
+    } else {
+      if (left < 2.0 * dt) dt = 0.5 * left;
+      last_step_ = dt;
+    }
+    if (!(dt > 0.0) || (!last && time_ + dt == time_))
+      throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_,
+                               " s: the stable step has fallen to ", dt, " s"));
+    step(dt);
+    if (last) time_ = t_end;
+  }
+}
+
+double Lagrangian1D::interface_radius(int layer) const { return r_.at(blocks_.at(layer).end); }
+
+double Lagrangian1D::kinetic_energy() const {
+  double sum = 0.0;
+  for (int i = 0; i <= cells(); ++i) sum += 0.5 * node_mass_[i] * u_[i] * u_[i];
+  return sum;
+}
+
+double Lagrangian1D::internal_energy() const {
+  double sum = 0.0;
+  for (int i = 0; i < cells(); ++i) sum += cell_mass_[i] * e_[i];
+  return sum;
+}
+
+double Lagrangian1D::barotropic_heat() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (!std::remove_cvref_t<decltype(law)>::uses_energy)
+            for (int i = blocks_[k].begin; i < blocks_[k].end; ++i)
+              sum += cell_mass_[i] * (e_[i] - law.barotropic_energy(rho_[i]));
+        },
+        layers_[k].law);
+  return sum;
+}
+
+PointState Lagrangian1D::at(double radius) const {
+  if (!(radius >= r_.front() && radius <= r_.back()))
+    throw std::out_of_range(text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(), " to ",
+                                 r_.back(), " m"));
+  const int above = static_cast<int>(std::upper_bound(r_.begin(), r_.end(), radius) - r_.begin());
+  const int cell = std::clamp(above - 1, 0, cells() - 1);
+  const double share = (radius - r_[cell]) / (r_[cell + 1] - r_[cell]);
+  const double centre = 0.5 * (r_[cell] + r_[cell + 1]);
+  int other = radius < centre ? cell - 1 : cell + 1;
+  if (other < 0 || other >= cells() || cell_layer_[other] != cell_layer_[cell]) other = cell;
+  const double other_centre = 0.5 * (r_[other] + r_[other + 1]);
+  const double weight = other == cell ? 0.0 : (radius - centre) / (other_centre - centre);
+  const auto between = [&](const std::vector<double>& f) { return f[cell] + weight * (f[other] - f[cell]); };
+  return {between(rho_), u_[cell] + share * (u_[cell + 1] - u_[cell]), between(e_), between(p_),
+          cell_layer_[cell]};
+}
+
+IntervalIntegral Lagrangian1D::integral(double from, double to, int layer) const {
+  IntervalIntegral sum;
+  if (!(to > from) || to <= r_.front() || from >= r_.back()) return sum;
+  const int first =
+      std::clamp(static_cast<int>(std::upper_bound(r_.begin(), r_.end(), from) - r_.begin()) - 1, 0, cells() - 1);
+  for (int i = first; i < cells() && r_[i] < to; ++i) {
+    if (layer >= 0 && cell_layer_[i] != layer) continue;
+    const double cell_volume = volume_to(r_[i + 1]) - volume_to(r_[i]);
+    const bool whole = from <= r_[i] && to >= r_[i + 1];
+    const double cut = whole ? 0.0 : middle(i);
+    for (const int half : {0, 1}) {
+      double volume = 0.5 * cell_volume;
+      if (!whole) {
+        const double begin = std::max(from, half == 0 ? r_[i] : cut);
+        const double end = std::min(to, half == 0 ? cut : r_[i + 1]);
+        if (!(end > begin)) continue;
+        volume = volume_to(end) - volume_to(begin);
+      }
+      const double mass = cell_mass_[i] * (volume / cell_volume), speed = u_[i + half];
+      sum.volume += volume;
+      sum.mass += mass;
+      sum.momentum += mass * speed;
+      sum.kinetic_energy += 0.5 * mass * speed * speed;
+      sum.internal_energy += mass * e_[i];
+      sum.pressure_volume += volume * p_[i];
+    }
+  }
+  return sum;
+}
+
+double Lagrangian1D::shock_front(double threshold) const {
+  const double limit = outer_start_pressure_ + threshold;
+  for (int i = cells() - 1; i >= 0; --i) {
+    if (!(p_[i] > limit)) continue;
+    const double centre = 0.5 * (r_[i] + r_[i + 1]);
+    if (i + 1 == cells()) return r_[i + 1];
+    const double next = 0.5 * (r_[i + 1] + r_[i + 2]);
+    return centre + (next - centre) * (p_[i] - limit) / (p_[i] - p_[i + 1]);
+  }
+  return r_.front();
+}
+
+}  // namespace undex::exact

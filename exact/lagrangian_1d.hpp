@@ -1,0 +1,180 @@
+// One-dimensional Lagrangian hydrodynamics in planar, cylindrical or spherical symmetry: converged solutions for
+// tests and comparisons, and the state from which a run with a spherical start begins. SI units.
+//
+// Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells of
+// fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbouring cell),
+//   M du/dt = A (P_inside - P_outside),   m de/dt = -P d(V)/dt,   dr/dt = u.
+// The energy of a cell is changed by the very forces that move its two nodes, over the mean of their old and new
+// velocities; so kinetic plus internal energy keeps its value to round-off, whatever the step (the "compatible"
+// form of E. J. Caramana, D. E. Burton, M. J. Shashkov, P. P. Whalen, J. Comput. Phys. 146, 1998). Time: predictor
+// and corrector, second order; for small waves it is stable up to a Courant number of one.
+// Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann and
+// Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring velocity
+// gradients, takes it out of smooth compression (R. B. Christensen's form).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "materials/burn.hpp"
+#include "materials/equation_of_state.hpp"
+
+namespace undex::exact {
+
+/// A layer of one fluid, uniform at the start.
+struct Layer {
+  materials::FluidLaw law;
+  double inner = 0.0, outer = 0.0;  ///< radii (planar: positions) of its ends [m]
+  int cells = 0;                    ///< at least one
+  double ratio = 1.0;               ///< width of a cell over that of its inner neighbour
+  double density = 0.0;             ///< [kg/m^3]
+  /// Specific energy [J/kg]; not used with barotropic laws, whose layers start at their compression energy.
+  double energy = 0.0;
+  double velocity = 0.0;  ///< outward [m/s]
+  /// Burn of an explosive whose products follow `law`, which must be Jwl; the burn's points are (r, 0, 0) with r the
+  /// initial radius of the cell's middle. Front widths of three cells or more keep the front smooth.
+  std::optional<materials::ProgrammedBurn> burn = {};
+};
+
+/// Ratio of neighbouring widths with which `cells` cells fill `length` [m], the first being `first` [m] wide.
+/// Throws std::invalid_argument unless 0 < first < length and cells >= 2.
+double grading(double length, int cells, double first);
+
+enum class Boundary {
+  rigid,         ///< does not move; also the centre and a plane of symmetry
+  free,          ///< pressure held at the given value, zero unless told otherwise
+  transmitting,  ///< lets normal sound waves of the last cell out: p = p_start + rho c (u - u_start)
+};
+
+/// Numbers of the scheme, with defaults that suit gases, water and detonation products.
+struct Lagrangian1DOptions {
+  double linear_viscosity = 0.25, quadratic_viscosity = 1.5;  ///< a1, a2 [-]
+  bool limiter = true;                                        ///< psi; without it q acts in every compression
+  double courant = 0.7;                                       ///< [-], below 1
+  double inner_pressure = 0.0, outer_pressure = 0.0;          ///< outside of a free boundary [Pa]
+};
+
+/// State at a point.
+struct PointState {
+  double density;   ///< [kg/m^3]
+  double velocity;  ///< outward [m/s]
+  double energy;    ///< specific internal energy [J/kg], see Lagrangian1D::energy
+  double pressure;  ///< [Pa], without the artificial part
+  int layer;        ///< index of the layer
+};
+
+/// Integrals over an interval of radius; per area [m^2] in planar, per length [m] in cylindrical symmetry.
+struct IntervalIntegral {
+  double volume = 0.0;           ///< [m^3]
+  double mass = 0.0;             ///< [kg]
+  double momentum = 0.0;         ///< sum of mass times OUTWARD velocity [kg m/s]; in a sphere not a vector sum
+  double kinetic_energy = 0.0;   ///< [J]
+  double internal_energy = 0.0;  ///< [J]
+  double pressure_volume = 0.0;  ///< integral of the pressure over the volume [J]
+
+  double density() const { return mass / volume; }             ///< mean [kg/m^3]
+  double velocity() const { return momentum / mass; }          ///< mean by mass [m/s]
+  double energy() const { return internal_energy / mass; }     ///< mean by mass [J/kg]
+  double pressure() const { return pressure_volume / volume; }  ///< mean by volume [Pa]
+  /// Specific energy [J/kg] which, together with the kinetic energy of the mean velocity, holds all the energy of
+  /// the interval: the internal energy to give to one body that replaces it.
+  double energy_with_lost_motion() const {
+    return (internal_energy + kinetic_energy) / mass - 0.5 * velocity() * velocity();
+  }
+};
+
+class Lagrangian1D {
+ public:
+  /// dimension: 1 planar, 2 cylindrical, 3 spherical. The layers touch one another, from the inside out. A node
+  /// between layers of different velocity starts with their mean by mass.
+  /// Throws std::invalid_argument with the values on layers that do not fit.
+  Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary inner = Boundary::rigid,
+               Boundary outer = Boundary::rigid, const Lagrangian1DOptions& options = {});
+
+  /// Steps until exactly t_end [s]; does nothing when t_end has passed. Throws NumericalStop (core/errors.hpp)
+  /// naming cell and time when a cell turns inside out or a state is not finite.
+  void advance(double t_end);
+
+  double time() const { return time_; }
+  long steps() const { return steps_; }
+  int dimension() const { return dimension_; }
+  int cells() const { return static_cast<int>(cell_mass_.size()); }
+  int layers() const { return static_cast<int>(layers_.size()); }
+  std::span<const double> node_radius() const { return r_; }     ///< [cells + 1], [m]
+  std::span<const double> node_velocity() const { return u_; }   ///< [cells + 1], outward [m/s]
+  std::span<const double> cell_density() const { return rho_; }  ///< [cells], [kg/m^3]
+  /// [cells], specific internal energy [J/kg]. In barotropic cells compression energy plus the heat that shocks
+  /// have left, which does not act back on their pressure.
+  std::span<const double> cell_energy() const { return e_; }
+  std::span<const double> cell_pressure() const { return p_; }  ///< [cells], without the artificial part [Pa]
+  std::span<const double> cell_sound() const { return c_; }     ///< [cells], [m/s]
+  /// [cells], [kg]; per area [m^2] in planar, per length [m] in cylindrical symmetry, as all sums below.
+  std::span<const double> cell_mass() const { return cell_mass_; }
+  std::span<const int> cell_layer() const { return cell_layer_; }  ///< [cells]
+  double interface_radius(int layer) const;                        ///< outer end of that layer, now [m]
+
+  double kinetic_energy() const;   ///< [J]
+  double internal_energy() const;  ///< [J]
+  /// Kinetic plus internal [J]. total_energy() + boundary_work() is conserved to round-off.
+  double total_energy() const { return kinetic_energy() + internal_energy(); }
+  /// Work done on what lies outside of free and transmitting boundaries since the start [J].
+  double boundary_work() const { return boundary_work_; }
+  /// Share of the internal energy that is heat left by shocks in barotropic layers [J].
+  double barotropic_heat() const;
+
+  /// State at `radius` [m]: velocity linear between nodes, the rest linear between the middles of cells of one
+  /// layer, never across a contact. Throws std::out_of_range outside of the mesh.
+  PointState at(double radius) const;
+
+  /// Exact integrals of the discrete state over [from, to] [m], only of that layer if one is named (>= 0). Density
+  /// and energy are uniform in a cell, and each half of a cell's mass moves with its own node, so that intervals
+  /// which tile the mesh add up to the mass, momentum and energy of the whole. Parts outside the mesh are empty.
+  IntervalIntegral integral(double from, double to, int layer = -1) const;
+
+  /// Outermost radius [m] at which the pressure exceeds that of the outermost cell at the start by `threshold`
+  /// [Pa], linear between the middles of cells; the radius of the inner end where there is none.
+  double shock_front(double threshold) const;
+
+ private:
+  struct Block {
+    int begin, end;         // cells
+    double stiffest_sound;  // of the liquid, where the law gives that of its bubbly mixture [m/s]
+  };
+  double volume_to(double radius) const;                       // enclosed [m^3]
+  double mean_area(double from, double to) const;              // swept volume over distance [m^2]
+  double middle(int cell) const;                               // radius that halves the cell's volume [m]
+  double outside_pressure(bool outer, double u, double rho, double sound) const;
+  /// Pressure and artificial pressure of the cells below `end`.
+  void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,
+                 const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p,
+                 std::vector<double>& q);
+  double stable_step() const;
+  void step(double dt);
+  void update_active();
+
+  int dimension_;
+  double area_factor_;  // area of a unit radius: 1, 2 pi, 4 pi
+  std::vector<Layer> layers_;
+  std::vector<Block> blocks_;
+  Boundary inner_, outer_;
+  Lagrangian1DOptions options_;
+
+  // State.
+  double time_ = 0.0, last_step_ = 0.0, boundary_work_ = 0.0;
+  long steps_ = 0;
+  std::vector<double> r_, u_, e_;
+  // Fixed at the start.
+  std::vector<double> cell_mass_, node_mass_, start_volume_, start_density_, start_middle_;
+  std::vector<int> cell_layer_;
+  double inner_start_pressure_ = 0.0, outer_start_pressure_ = 0.0;
+  double inner_start_velocity_ = 0.0, outer_start_velocity_ = 0.0;
+  // Follows from the state.
+  std::vector<double> rho_, p_, q_, c_, viscous_sound_;
+  int active_ = 0;  // nodes beyond it are at rest and in balance
+  // Scratch of a step.
+  std::vector<double> r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_, area_, slope_;
+};
+
+}  // namespace undex::exact

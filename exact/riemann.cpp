@@ -1,0 +1,93 @@
+// Crossing of the two wave curves, and sampling of the fan.
+#include "exact/riemann.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace undex::exact {
+
+namespace {
+/// Sign of the direction into which the waves of a side run.
+constexpr double outward(int side) { return side == 0 ? -1.0 : 1.0; }
+}  // namespace
+
+RiemannSolution::Reached RiemannSolution::reach(int k, double pressure) const {
+  if (pressure > start_pressure_[k]) {
+    const ShockState s = shock_to(side_[k].law, side_[k].density, start_energy_[k], pressure);
+    return {(pressure - start_pressure_[k]) / s.mass_flux, s.density, s.energy};
+  }
+  if (pressure == start_pressure_[k]) return {0.0, side_[k].density, start_energy_[k]};
+  const IsentropeState s = isentrope_[k]->at_pressure(pressure);
+  return {s.riemann, s.density, s.energy};
+}
+
+RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& right) : side_{left, right} {
+  double lowest[2], escape[2];
+  for (const int k : {0, 1}) {
+    if (!(side_[k].density > 0))
+      throw std::invalid_argument("RiemannSolution: densities [kg/m^3] must be positive, got " +
+                                  std::to_string(side_[k].density));
+    isentrope_[k].emplace(side_[k].law, side_[k].density, side_[k].energy);
+    start_pressure_[k] = isentrope_[k]->start().pressure;
+    start_energy_[k] = isentrope_[k]->start().energy;
+    lowest[k] = isentrope_[k]->end().pressure;
+    escape[k] = isentrope_[k]->riemann_limit();
+  }
+  const double apart = right.velocity - left.velocity;
+  // Speed by which the two wave curves miss each other at a pressure; rises with the pressure.
+  const auto excess = [&](double p) { return reach(0, p).velocity_change + reach(1, p).velocity_change + apart; };
+
+  double low = std::max(lowest[0], lowest[1]);
+  cavity_ = escape[0] + escape[1] + apart > 0.0 && excess(low) > 0.0;
+  if (cavity_) {
+    pressure_ = low;
+  } else {
+    double high = std::max({start_pressure_[0], start_pressure_[1], low});
+    const double rho_c = std::max(side_[0].density * isentrope_[0]->start().sound,
+                                  side_[1].density * isentrope_[1]->start().sound);
+    for (double add = rho_c * std::abs(apart) + 1e-6 * std::abs(high) + 1e-300; excess(high) < 0.0; add *= 2.0)
+      high += add;
+    for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+      (excess(middle) < 0.0 ? low : high) = middle;
+    pressure_ = high;
+  }
+
+  for (const int k : {0, 1}) {
+    const double sign = outward(k);
+    const Reached r = reach(k, std::max(pressure_, lowest[k]));
+    const double gained = cavity_ ? escape[k] : r.velocity_change;
+    star_[k] = {r.density, side_[k].velocity + sign * gained, pressure_, r.energy, k};
+    wave_[k].shock = pressure_ > start_pressure_[k];
+    if (wave_[k].shock) {
+      const double flux = shock_to(side_[k].law, side_[k].density, start_energy_[k], pressure_).mass_flux;
+      wave_[k].head = wave_[k].tail = side_[k].velocity + sign * flux / side_[k].density;
+    } else {
+      const IsentropeState end = isentrope_[k]->at_density(r.density);
+      // Where a gas expands into a vacuum the tail of the fan is its edge.
+      const bool vacuum = cavity_ && !isentrope_[k]->ends_on_floor();
+      wave_[k].head = side_[k].velocity + sign * isentrope_[k]->start().sound;
+      wave_[k].tail = vacuum ? star_[k].velocity : star_[k].velocity + sign * end.sound;
+      if (pressure_ == start_pressure_[k]) wave_[k].tail = wave_[k].head;
+    }
+  }
+  if (!cavity_) {
+    const double common = 0.5 * (star_[0].velocity + star_[1].velocity);
+    star_[0].velocity = star_[1].velocity = common;
+  }
+}
+
+RiemannSample RiemannSolution::sample(double xi) const {
+  if (cavity_ && xi > star_[0].velocity && xi < star_[1].velocity) return {0.0, xi, pressure_, 0.0, -1};
+  const int k = xi < velocity() ? 0 : 1;
+  const double sign = outward(k);
+  if (sign * (xi - wave_[k].head) >= 0.0)
+    return {side_[k].density, side_[k].velocity, start_pressure_[k], start_energy_[k], k};
+  if (sign * (xi - wave_[k].tail) <= 0.0) return star_[k];
+  // In the fan: x/t = u + sign c with u = u_start + sign w.
+  const IsentropeState s = isentrope_[k]->find(
+      [](const IsentropeState& f) { return f.riemann + f.sound; }, sign * (xi - side_[k].velocity));
+  return {s.density, side_[k].velocity + sign * s.riemann, s.pressure, s.energy, k};
+}
+
+}  // namespace undex::exact

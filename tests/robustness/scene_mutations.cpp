@@ -1,0 +1,170 @@
+// Damaged scenes: whatever is done to a scene file, the reader either reads it or throws SceneError.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "scene/scene.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace undex;
+
+/// UNDEX_MUTATIONS sets how many damaged scenes are tried per kind of damage.
+int tries() {
+  const char* given = std::getenv("UNDEX_MUTATIONS");
+  return given ? std::atoi(given) : 400;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class SceneMutations : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const auto& entry : fs::directory_iterator(fs::path(UNDEX_ROOT) / "cases"))
+      if (fs::exists(entry.path() / "case.toml")) {
+        const std::string written = text_of(entry.path() / "case.toml");
+        scenes_.push_back(written);
+        try {  // also the long form
+          scenes_.push_back(scene::to_toml(scene::read(entry.path())));
+        } catch (const SceneError&) {
+        }
+      }
+    std::sort(scenes_.begin(), scenes_.end());
+    ASSERT_FALSE(scenes_.empty());
+    folder_ = fs::temp_directory_path() / ("undex_robustness_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  /// Reads a damaged scene; anything but success and SceneError fails the test.
+  void survives(const std::string& text, const std::vector<scene::Override>& overrides = {}) {
+    const fs::path file = folder_ / "case.toml";
+    std::ofstream(file, std::ios::binary) << text;
+    try {
+      const scene::Scene read = scene::read(file, overrides);
+      ++good_;
+      EXPECT_EQ(scene::to_toml(scene::read((std::ofstream(folder_ / "again.toml") << scene::to_toml(read), folder_ / "again.toml"))),
+                scene::to_toml(read));
+    } catch (const SceneError& error) {
+      ++refused_;
+      EXPECT_FALSE(error.findings().empty());
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << "threw " << error.what() << " on\n" << text;
+    }
+  }
+
+  std::string& any_scene() {
+    copy_ = scenes_[below(scenes_.size())];
+    return copy_;
+  }
+  std::size_t below(std::size_t limit) { return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random_); }
+
+  /// Start and length of a random number in the text; length 0 where there is none.
+  std::pair<std::size_t, std::size_t> any_number(const std::string& text) {
+    const std::string digits = "0123456789.e-+";
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      const std::size_t from = below(text.size());
+      const std::size_t at = text.find_first_of("0123456789", from);
+      if (at == std::string::npos || at == 0 || std::string(" [,-").find(text[at - 1]) == std::string::npos) continue;
+      const std::size_t end = text.find_first_not_of(digits, at);
+      return {at, (end == std::string::npos ? text.size() : end) - at};
+    }
+    return {0, 0};
+  }
+
+  std::mt19937 random_{20240229};
+  std::vector<std::string> scenes_;
+  std::string copy_;
+  fs::path folder_;
+  int good_ = 0, refused_ = 0;
+};
+
+TEST_F(SceneMutations, Truncated) {
+  for (int i = 0; i < tries(); ++i) {
+    std::string& text = any_scene();
+    survives(text.substr(0, below(text.size())));
+  }
+}
+
+TEST_F(SceneMutations, BytesReplaced) {
+  for (int i = 0; i < tries(); ++i) {
+    std::string& text = any_scene();
+    for (std::size_t k = 0, count = 1 + below(4); k < count; ++k)
+      text[below(text.size())] = static_cast<char>(below(3) ? " \n\"[]{}=.,#-0x"[below(14)] : static_cast<int>(below(256)));
+    survives(text);
+  }
+}
+
+TEST_F(SceneMutations, LinesRemovedAndRepeated) {
+  for (int i = 0; i < tries(); ++i) {
+    std::string& text = any_scene();
+    const std::size_t from = text.rfind('\n', below(text.size()));
+    const std::size_t begin = from == std::string::npos ? 0 : from + 1, end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end == std::string::npos ? end : end - begin + 1);
+    if (below(2)) text.erase(begin, line.size());
+    else text.insert(begin, line);
+    survives(text);
+  }
+}
+
+TEST_F(SceneMutations, NumbersReplaced) {
+  const std::vector<std::string> values{"0",    "-1",  "1e300", "-1e300", "1e-300", "inf", "nan", "9223372036854775807",
+                                        "1e-9", "1e9", "\"\"",  "[]",     "{}",     "1",   "2",   "0.5",
+                                        "1979-05-27", "[[[1]]]", "1e5", "-0.0"};
+  for (int i = 0; i < 2 * tries(); ++i) {
+    std::string& text = any_scene();
+    for (std::size_t k = 0, count = 1 + below(2); k < count; ++k)
+      if (const auto [at, length] = any_number(text); length > 0) text.replace(at, length, values[below(values.size())]);
+    survives(text);
+  }
+}
+
+TEST_F(SceneMutations, ScenesSpliced) {
+  for (int i = 0; i < tries(); ++i) {
+    const std::string head = any_scene();
+    const std::string tail = any_scene();
+    survives(head.substr(0, below(head.size())) + '\n' + tail.substr(below(tail.size())));
+  }
+}
+
+TEST_F(SceneMutations, WildOverrides) {
+  const std::vector<std::string> words{"bodies", "water", "0", "1", "shape", "low", "material", "burn", "structure", "cells",
+                                       "symmetry", "planes", "resolution", "spacing", "x", "", "99999999999999999999", "probes"};
+  const std::vector<std::string> values{"1", "-1", "[]", "{}", "[1, 2]", "word", "\"", "{a = 1}", "1\n", "[\"x\"]", "inf",
+                                        "\"petn\"", "{base = \"petn\"}", "", "[[", "true"};
+  for (int i = 0; i < tries(); ++i) {
+    std::string path = words[below(words.size())];
+    for (std::size_t k = 0, count = below(4); k < count; ++k) path += '.' + words[below(words.size())];
+    survives(any_scene(), {{path, values[below(values.size())]}});
+  }
+}
+
+TEST_F(SceneMutations, DeepAndEmpty) {
+  survives("");
+  survives("\xff\xfe");
+  survives("a = " + std::string(100000, '['));
+  survives("a = " + std::string(5000, '{'));
+  survives(std::string(100000, '\n') + "end_time = 1");
+  std::string dotted = "a";
+  for (int i = 0; i < 2000; ++i) dotted += ".a";
+  survives(dotted + " = 1");
+  survives("end_time = 1\n[[bodies]]\n[[bodies]]\n[[probes]]\n[[walls]]\n[structure]\n");
+}
+
+}  // namespace
