@@ -33,8 +33,9 @@ Sedov::Sedov(int dimension, double gamma, double density, double energy)
   const OdeState<4> front{2.0 / (gamma + 1.0), std::log((gamma + 1.0) / (gamma - 1.0)),
                           std::log(2.0 / (gamma + 1.0)), 0.0};
   const auto f = [this](double s, const OdeState<4>& y) { return slope(s, y); };
-  // To lambda = e^-12: what lies within holds less than 1e-5 of the volume per area, and its energy is added below.
-  points_ = integrate<4>(f, 0.0, -12.0, front, {1.0, 1.0, 1.0, 1.0}, 1e-11, 0.05);
+  // Inward an error of U/lambda, which tends to 1/gamma, grows as lambda^-d. The integration ends at lambda^d
+  // = e^-12, where pressure is uniform to many digits; the energy within is added below.
+  points_ = integrate<4>(f, 0.0, -12.0 / dimension, front, {1.0, 1.0, 1.0, 1.0}, 1e-13, 0.05);
   const double innermost = std::exp(points_.back().s);
   const double rest =
       std::exp(points_.back().y[2]) / (gamma - 1.0) * std::pow(innermost, dimension) / dimension;
@@ -49,8 +50,8 @@ OdeState<4> Sedov::slope(double s, const OdeState<4>& y) const {
   const double d = dimension_, relative = V - 1.0;
   const double Q = P / (G * lambda * lambda);
   // relative lnG' + U' = -(d - 1) V;  relative U' + Q lnP' = d V/2;  relative (lnP' - gamma lnG') = d.
-  const double U = (relative * (0.5 * d * V) - Q * d + gamma_ * Q * (d - 1.0) * V) /
-                   (relative * relative - gamma_ * Q);
+  const double U =
+      (relative * (0.5 * d * V) - Q * d + gamma_ * Q * (d - 1.0) * V) / (relative * relative - gamma_ * Q);
   const double lnG = (-(d - 1.0) * V - U) / relative;
   const double lnP = d / relative + gamma_ * lnG;
   const double kinetic = 0.5 * G * V * V * lambda * lambda, internal = P / (gamma_ - 1.0);
@@ -76,7 +77,7 @@ GasSample Sedov::sample(double r, double t) const {
   const double power = dimension_ / (gamma_ - 1.0);
   const double inside = lambda > 0.0 ? std::pow(lambda / std::exp(s), power) : 0.0;
   const double rho = density_ * std::exp(y[1]) * inside, p = density_ * speed * speed * std::exp(y[2]);
-  return {rho, speed * y[0] * lambda, p, p / ((gamma_ - 1.0) * rho)};
+  return {rho, speed * y[0] * lambda, p, p / ((gamma_ - 1.0) * rho)};  // energy is infinite at r = 0
 }
 
 double TaylorPlate::velocity(double t) const {

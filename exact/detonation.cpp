@@ -18,7 +18,8 @@ TaylorWave::TaylorWave(const materials::Jwl& products, int dimension)
     return;
   }
   const auto f = [this](double u, const OdeState<2>& y) { return slope(u, y); };
-  // Next to the core u falls as its distance over a logarithm: a velocity of 1e-9 of the first is the core's edge.
+  // Next to the core u falls as its distance over a logarithm: a velocity of 1e-9 of the first is the core's
+  // edge.
   const double last = 1e-9 * front_.particle_speed;
   points_ = integrate<2>(f, front_.particle_speed, last, {front_.detonation_speed, std::log(front_.density)},
                          {front_.detonation_speed, 1.0}, 1e-11, 0.01 * front_.particle_speed);
@@ -42,8 +43,8 @@ TaylorWave::Sample TaylorWave::sample(double r, double t) const {
   };
   if (dimension_ == 1) {
     if (x <= core_.sound) return made(core_, 0.0);
-    const IsentropeState s = isentrope_.find(
-        [](const IsentropeState& f) { return f.riemann + f.sound; }, x - front_.particle_speed);
+    const IsentropeState s = isentrope_.find([](const IsentropeState& f) { return f.riemann + f.sound; },
+                                             x - front_.particle_speed);
     return made(s, front_.particle_speed + s.riemann);
   }
   if (x <= points_.back().y[0]) return made(core_, 0.0);

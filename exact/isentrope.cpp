@@ -36,8 +36,7 @@ double floor_pressure(const materials::FluidLaw& law) {
 }  // namespace
 
 materials::PressureSound true_pressure_sound(const materials::FluidLaw& law, double density, double energy) {
-  materials::PressureSound s =
-      std::visit([&](const auto& l) { return l.evaluate(density, energy); }, law);
+  materials::PressureSound s = std::visit([&](const auto& l) { return l.evaluate(density, energy); }, law);
   double gamma = 0.0;
   if (const auto* gas = std::get_if<materials::BarotropicGas>(&law)) gamma = gas->parameters().gamma;
   if (const auto* gas = std::get_if<materials::IdealGas>(&law)) gamma = gas->parameters().gamma;
@@ -152,9 +151,8 @@ ShockState shock_to(const materials::FluidLaw& law, double density, double energ
   for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
     (too_thin(middle) ? low : high) = middle;
   const double volume_change = 1.0 / density - 1.0 / high;
-  const double flux = volume_change > 0.0
-                          ? std::sqrt((pressure - start) / volume_change)
-                          : density * true_pressure_sound(law, density, energy).sound_speed;
+  const double flux = volume_change > 0.0 ? std::sqrt((pressure - start) / volume_change)
+                                          : density * true_pressure_sound(law, density, energy).sound_speed;
   return {high, energy_at(high), flux};
 }
 

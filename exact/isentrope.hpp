@@ -20,8 +20,8 @@ struct IsentropeState {
 
 /// Expansion from (density, energy), integrated in ln rho by
 ///   de = p/rho dln(rho),  dw = c dln(rho).
-/// It ends where the law's cavitation floor begins (from there on the true sound speed is zero and nothing more is
-/// gained), or where a gas has expanded until its sound speed is 1e-7 of the first.
+/// It ends where the law's cavitation floor begins (from there on the true sound speed is zero and nothing
+/// more is gained), or where a gas has expanded until its sound speed is 1e-7 of the first.
 class Isentrope {
  public:
   Isentrope(const materials::FluidLaw& law, double density, double energy);
@@ -29,8 +29,8 @@ class Isentrope {
   IsentropeState end() const { return state(points_.back()); }
   /// Does it end on a cavitation floor (and not in a vacuum)?
   bool ends_on_floor() const { return on_floor_; }
-  /// The speed gained in the expansion to the very end [m/s], <= 0: for a gas the part beyond end() is that of the
-  /// power law p ~ rho^G which the end follows, -2 c/(G - 1).
+  /// The speed gained in the expansion to the very end [m/s], <= 0: for a gas the part beyond end() is that
+  /// of the power law p ~ rho^G which the end follows, -2 c/(G - 1).
   double riemann_limit() const;
   /// State at a density [kg/m^3] between end and start (clamped to them).
   IsentropeState at_density(double density) const;
@@ -72,14 +72,15 @@ struct ShockState {
   double density, energy;  ///< [kg/m^3], [J/kg]
   double mass_flux;        ///< through the front [kg/(m^2 s)]
 };
-/// Mass and momentum: j^2 = (p - p0)/(1/rho0 - 1/rho); energy: e - e0 = (p + p0)/2 (1/rho0 - 1/rho), which fixes rho
-/// with the law. For barotropic laws there is no energy condition: mass and momentum alone hold, rho is that of the
-/// law at `pressure`, and the energy returned is the compression energy (the rest is taken away as heat).
-/// Throws std::domain_error when the law reaches the pressure at no density below 1e3 times the first.
+/// Mass and momentum: j^2 = (p - p0)/(1/rho0 - 1/rho); energy: e - e0 = (p + p0)/2 (1/rho0 - 1/rho), which
+/// fixes rho with the law. For barotropic laws there is no energy condition: mass and momentum alone hold,
+/// rho is that of the law at `pressure`, and the energy returned is the compression energy (the rest is taken
+/// away as heat). Throws std::domain_error when the law reaches the pressure at no density below 1e3 times
+/// the first.
 ShockState shock_to(const materials::FluidLaw& law, double density, double energy, double pressure);
 
-/// Pressure [Pa] and the sound speed [m/s] without the guard that keeps it above 1 mm/s, for gases in the last of a
-/// vacuum.
+/// Pressure [Pa] and the sound speed [m/s] without the guard that keeps it above 1 mm/s, for gases in the
+/// last of a vacuum.
 materials::PressureSound true_pressure_sound(const materials::FluidLaw& law, double density, double energy);
 
 }  // namespace undex::exact

@@ -15,7 +15,9 @@ namespace undex::exact {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument("Lagrangian1D: " + message); }
+[[noreturn]] void refuse(const std::string& message) {
+  throw std::invalid_argument("Lagrangian1D: " + message);
+}
 
 template <class... Parts>
 std::string text(const Parts&... parts) {
@@ -34,7 +36,8 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const Layer& layer = layers[k];
     if (!(layer.outer > layer.inner))
-      refuse(text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
+      refuse(
+          text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
     if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
     if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
     if (!(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
@@ -55,8 +58,8 @@ double first_width(double length, int cells, double ratio) {
 
 double grading(double length, int cells, double first) {
   if (!(first > 0 && first < length && cells >= 2))
-    throw std::invalid_argument(text("grading: needs at least two cells and a first one shorter than ", length,
-                                     " m, got ", cells, " and ", first, " m"));
+    throw std::invalid_argument(text("grading: needs at least two cells and a first one shorter than ",
+                                     length, " m, got ", cells, " and ", first, " m"));
   double low = 1e-3, high = 1e3;  // the first width falls with the ratio
   for (double middle = 1.0; middle > low && middle < high; middle = std::sqrt(low * high))
     (first_width(length, cells, middle) > first ? low : high) = middle;
@@ -163,8 +166,8 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
     if (const auto& burn = layers_[k].burn) {
       const auto& products = std::get<materials::Jwl>(layers_[k].law);
       for (int i = block.begin; i < stop; ++i) {
-        // The part that burns by compression is not kept when the zone expands: kept, every oscillation of the
-        // unburned charge, however small, would burn some more of it, until it detonates of itself.
+        // The part that burns by compression is not kept when the zone expands: kept, every oscillation of
+        // the unburned charge, however small, would burn some more of it, until it detonates of itself.
         const double burned =
             burn->fraction(Vec3(start_middle_[i], 0.0, 0.0), time, rho[i] / start_density_[i]);
         const auto state = materials::burning(products, rho[i], e[i], burned);
@@ -215,7 +218,26 @@ double Lagrangian1D::stable_step() const {
     const double speed = b + std::sqrt(b * b + c_[i] * c_[i]) + 2.0 * change;
     shortest = std::min(shortest, width / speed);
   }
+  // Where the pressure jumps, sound says nothing of the step yet: no node may cross a tenth of a cell from
+  // rest.
+  double stiffest = 0.0;  // acceleration over width [1/s^2]
+  for (int i = 0; i < end; ++i) {
+    const double total = p_[i] + q_[i];
+    const double below =
+        i > 0 ? p_[i - 1] + q_[i - 1]
+              : (inner_ == Boundary::rigid ? total : outside_pressure(false, u_[0], rho_[0], c_[0]));
+    double width = r_[i + 1] - r_[i];
+    if (i > 0) width = std::min(width, r_[i] - r_[i - 1]);
+    stiffest =
+        std::max(stiffest, mean_area(r_[i], r_[i]) * std::abs(total - below) / (node_mass_[i] * width));
+  }
+  if (end == cells() && outer_ != Boundary::rigid) {
+    const double above = outside_pressure(true, u_[end], rho_[end - 1], c_[end - 1]);
+    stiffest = std::max(stiffest, mean_area(r_[end], r_[end]) * std::abs(p_[end - 1] + q_[end - 1] - above) /
+                                      (node_mass_[end] * (r_[end] - r_[end - 1])));
+  }
   shortest *= options_.courant;
+  if (stiffest > 0.0) shortest = std::min(shortest, std::sqrt(0.2 / stiffest));
   return last_step_ > 0.0 ? std::min(shortest, 1.2 * last_step_) : shortest;
 }
 
@@ -257,8 +279,8 @@ void Lagrangian1D::step(double dt) {
     for (int i = 0; i < cell_end; ++i)
       if (!(rho_new_[i] > 0.0 && std::isfinite(rho_new_[i]) && std::isfinite(e_new_[i])))
         throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: cell ", i,
-                                 " of layer ", cell_layer_[i], " near r = ", r_[i], " m has density ", rho_new_[i],
-                                 " kg/m^3 and energy ", e_new_[i], " J/kg; dt = ", dt, " s"));
+                                 " of layer ", cell_layer_[i], " near r = ", r_[i], " m has density ",
+                                 rho_new_[i], " kg/m^3 and energy ", e_new_[i], " J/kg; dt = ", dt, " s"));
   };
   healthy();
   pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
@@ -356,8 +378,8 @@ double Lagrangian1D::barotropic_heat() const {
 
 PointState Lagrangian1D::at(double radius) const {
   if (!(radius >= r_.front() && radius <= r_.back()))
-    throw std::out_of_range(text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(), " to ",
-                                 r_.back(), " m"));
+    throw std::out_of_range(text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(),
+                                 " to ", r_.back(), " m"));
   const int above = static_cast<int>(std::upper_bound(r_.begin(), r_.end(), radius) - r_.begin());
   const int cell = std::clamp(above - 1, 0, cells() - 1);
   const double share = (radius - r_[cell]) / (r_[cell + 1] - r_[cell]);
@@ -374,8 +396,8 @@ PointState Lagrangian1D::at(double radius) const {
 IntervalIntegral Lagrangian1D::integral(double from, double to, int layer) const {
   IntervalIntegral sum;
   if (!(to > from) || to <= r_.front() || from >= r_.back()) return sum;
-  const int first =
-      std::clamp(static_cast<int>(std::upper_bound(r_.begin(), r_.end(), from) - r_.begin()) - 1, 0, cells() - 1);
+  const int first = std::clamp(
+      static_cast<int>(std::upper_bound(r_.begin(), r_.end(), from) - r_.begin()) - 1, 0, cells() - 1);
   for (int i = first; i < cells() && r_[i] < to; ++i) {
     if (layer >= 0 && cell_layer_[i] != layer) continue;
     const double cell_volume = volume_to(r_[i + 1]) - volume_to(r_[i]);

@@ -1,16 +1,17 @@
-// One-dimensional Lagrangian hydrodynamics in planar, cylindrical or spherical symmetry: converged solutions for
-// tests and comparisons, and the state from which a run with a spherical start begins. SI units.
+// One-dimensional Lagrangian hydrodynamics in planar, cylindrical or spherical symmetry: converged solutions
+// for tests and comparisons, and the state from which a run with a spherical start begins. SI units.
 //
-// Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells of
-// fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbouring cell),
+// Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells
+// of fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbouring
+// cell),
 //   M du/dt = A (P_inside - P_outside),   m de/dt = -P d(V)/dt,   dr/dt = u.
-// The energy of a cell is changed by the very forces that move its two nodes, over the mean of their old and new
-// velocities; so kinetic plus internal energy keeps its value to round-off, whatever the step (the "compatible"
-// form of E. J. Caramana, D. E. Burton, M. J. Shashkov, P. P. Whalen, J. Comput. Phys. 146, 1998). Time: predictor
-// and corrector, second order; for small waves it is stable up to a Courant number of one.
-// Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann and
-// Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring velocity
-// gradients, takes it out of smooth compression (R. B. Christensen's form).
+// The energy of a cell is changed by the very forces that move its two nodes, over the mean of their old and
+// new velocities; so kinetic plus internal energy keeps its value to round-off, whatever the step (the
+// "compatible" form of E. J. Caramana, D. E. Burton, M. J. Shashkov, P. P. Whalen, J. Comput. Phys. 146,
+// 1998). Time: predictor and corrector, second order; for small waves it is stable up to a Courant number of
+// one. Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann
+// and Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring
+// velocity gradients, takes it out of smooth compression (R. B. Christensen's form).
 #pragma once
 
 #include <limits>
@@ -33,8 +34,9 @@ struct Layer {
   /// Specific energy [J/kg]; not used with barotropic laws, whose layers start at their compression energy.
   double energy = 0.0;
   double velocity = 0.0;  ///< outward [m/s]
-  /// Burn of an explosive whose products follow `law`, which must be Jwl; the burn's points are (r, 0, 0) with r the
-  /// initial radius of the cell's middle. Front widths of three cells or more keep the front smooth.
+  /// Burn of an explosive whose products follow `law`, which must be Jwl; the burn's points are (r, 0, 0)
+  /// with r the initial radius of the cell's middle. Front widths of three cells or more keep the front
+  /// smooth.
   std::optional<materials::ProgrammedBurn> burn = {};
 };
 
@@ -67,19 +69,19 @@ struct PointState {
 
 /// Integrals over an interval of radius; per area [m^2] in planar, per length [m] in cylindrical symmetry.
 struct IntervalIntegral {
-  double volume = 0.0;           ///< [m^3]
-  double mass = 0.0;             ///< [kg]
-  double momentum = 0.0;         ///< sum of mass times OUTWARD velocity [kg m/s]; in a sphere not a vector sum
-  double kinetic_energy = 0.0;   ///< [J]
+  double volume = 0.0;          ///< [m^3]
+  double mass = 0.0;            ///< [kg]
+  double momentum = 0.0;        ///< sum of mass times OUTWARD velocity [kg m/s]; in a sphere not a vector sum
+  double kinetic_energy = 0.0;  ///< [J]
   double internal_energy = 0.0;  ///< [J]
   double pressure_volume = 0.0;  ///< integral of the pressure over the volume [J]
 
-  double density() const { return mass / volume; }             ///< mean [kg/m^3]
-  double velocity() const { return momentum / mass; }          ///< mean by mass [m/s]
-  double energy() const { return internal_energy / mass; }     ///< mean by mass [J/kg]
+  double density() const { return mass / volume; }              ///< mean [kg/m^3]
+  double velocity() const { return momentum / mass; }           ///< mean by mass [m/s]
+  double energy() const { return internal_energy / mass; }      ///< mean by mass [J/kg]
   double pressure() const { return pressure_volume / volume; }  ///< mean by volume [Pa]
-  /// Specific energy [J/kg] which, together with the kinetic energy of the mean velocity, holds all the energy of
-  /// the interval: the internal energy to give to one body that replaces it.
+  /// Specific energy [J/kg] which, together with the kinetic energy of the mean velocity, holds all the
+  /// energy of the interval: the internal energy to give to one body that replaces it.
   double energy_with_lost_motion() const {
     return (internal_energy + kinetic_energy) / mass - 0.5 * velocity() * velocity();
   }
@@ -87,14 +89,14 @@ struct IntervalIntegral {
 
 class Lagrangian1D {
  public:
-  /// dimension: 1 planar, 2 cylindrical, 3 spherical. The layers touch one another, from the inside out. A node
-  /// between layers of different velocity starts with their mean by mass.
-  /// Throws std::invalid_argument with the values on layers that do not fit.
+  /// dimension: 1 planar, 2 cylindrical, 3 spherical. The layers touch one another, from the inside out. A
+  /// node between layers of different velocity starts with their mean by mass. Throws std::invalid_argument
+  /// with the values on layers that do not fit.
   Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary inner = Boundary::rigid,
                Boundary outer = Boundary::rigid, const Lagrangian1DOptions& options = {});
 
-  /// Steps until exactly t_end [s]; does nothing when t_end has passed. Throws NumericalStop (core/errors.hpp)
-  /// naming cell and time when a cell turns inside out or a state is not finite.
+  /// Steps until exactly t_end [s]; does nothing when t_end has passed. Throws NumericalStop
+  /// (core/errors.hpp) naming cell and time when a cell turns inside out or a state is not finite.
   void advance(double t_end);
 
   double time() const { return time_; }
@@ -105,8 +107,8 @@ class Lagrangian1D {
   std::span<const double> node_radius() const { return r_; }     ///< [cells + 1], [m]
   std::span<const double> node_velocity() const { return u_; }   ///< [cells + 1], outward [m/s]
   std::span<const double> cell_density() const { return rho_; }  ///< [cells], [kg/m^3]
-  /// [cells], specific internal energy [J/kg]. In barotropic cells compression energy plus the heat that shocks
-  /// have left, which does not act back on their pressure.
+  /// [cells], specific internal energy [J/kg]. In barotropic cells compression energy plus the heat that
+  /// shocks have left, which does not act back on their pressure.
   std::span<const double> cell_energy() const { return e_; }
   std::span<const double> cell_pressure() const { return p_; }  ///< [cells], without the artificial part [Pa]
   std::span<const double> cell_sound() const { return c_; }     ///< [cells], [m/s]
@@ -124,17 +126,18 @@ class Lagrangian1D {
   /// Share of the internal energy that is heat left by shocks in barotropic layers [J].
   double barotropic_heat() const;
 
-  /// State at `radius` [m]: velocity linear between nodes, the rest linear between the middles of cells of one
-  /// layer, never across a contact. Throws std::out_of_range outside of the mesh.
+  /// State at `radius` [m]: velocity linear between nodes, the rest linear between the middles of cells of
+  /// one layer, never across a contact. Throws std::out_of_range outside of the mesh.
   PointState at(double radius) const;
 
-  /// Exact integrals of the discrete state over [from, to] [m], only of that layer if one is named (>= 0). Density
-  /// and energy are uniform in a cell, and each half of a cell's mass moves with its own node, so that intervals
-  /// which tile the mesh add up to the mass, momentum and energy of the whole. Parts outside the mesh are empty.
+  /// Exact integrals of the discrete state over [from, to] [m], only of that layer if one is named (>= 0).
+  /// Density and energy are uniform in a cell, and each half of a cell's mass moves with its own node, so
+  /// that intervals which tile the mesh add up to the mass, momentum and energy of the whole. Parts outside
+  /// the mesh are empty.
   IntervalIntegral integral(double from, double to, int layer = -1) const;
 
-  /// Outermost radius [m] at which the pressure exceeds that of the outermost cell at the start by `threshold`
-  /// [Pa], linear between the middles of cells; the radius of the inner end where there is none.
+  /// Outermost radius [m] at which the pressure exceeds that of the outermost cell at the start by
+  /// `threshold` [Pa], linear between the middles of cells; the radius of the inner end where there is none.
   double shock_front(double threshold) const;
 
  private:
@@ -142,9 +145,9 @@ class Lagrangian1D {
     int begin, end;         // cells
     double stiffest_sound;  // of the liquid, where the law gives that of its bubbly mixture [m/s]
   };
-  double volume_to(double radius) const;                       // enclosed [m^3]
-  double mean_area(double from, double to) const;              // swept volume over distance [m^2]
-  double middle(int cell) const;                               // radius that halves the cell's volume [m]
+  double volume_to(double radius) const;           // enclosed [m^3]
+  double mean_area(double from, double to) const;  // swept volume over distance [m^2]
+  double middle(int cell) const;                   // radius that halves the cell's volume [m]
   double outside_pressure(bool outer, double u, double rho, double sound) const;
   /// Pressure and artificial pressure of the cells below `end`.
   void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,

@@ -1,5 +1,5 @@
-// Ordinary differential equations to tight tolerance: the embedded Runge-Kutta pair of orders 5 and 4 of J. R. Dormand
-// and P. J. Prince (J. Comput. Appl. Math. 6, 1980).
+// Ordinary differential equations to tight tolerance: the embedded Runge-Kutta pair of orders 5 and 4 of J.
+// R. Dormand and P. J. Prince (J. Comput. Appl. Math. 6, 1980).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ using OdeState = std::array<double, N>;
 
 /// One step of length h from y at s; the estimated error of each component goes to `error`.
 template <std::size_t N, class Slope>
-OdeState<N> runge_kutta_step(const Slope& slope, double s, const OdeState<N>& y, double h, OdeState<N>& error) {
+OdeState<N> runge_kutta_step(const Slope& slope, double s, const OdeState<N>& y, double h,
+                             OdeState<N>& error) {
   constexpr double a[6][6] = {{1.0 / 5},
                               {3.0 / 40, 9.0 / 40},
                               {44.0 / 45, -56.0 / 15, 32.0 / 9},
@@ -50,10 +51,10 @@ struct OdePoint {
   OdeState<N> y;
 };
 
-/// Integrates dy/ds = slope(s, y) from `begin` to `end` (either direction) and returns the accepted points, the two ends
-/// included. Each component's error of a step stays below tolerance * max(|y|, scale). After each step `stop(point)` is
-/// asked; the integration ends behind the first point for which it holds. Throws std::runtime_error when the step
-/// has become too small to advance.
+/// Integrates dy/ds = slope(s, y) from `begin` to `end` (either direction) and returns the accepted points,
+/// the two ends included. Each component's error of a step stays below tolerance * max(|y|, scale). After
+/// each step `stop(point)` is asked; the integration ends behind the first point for which it holds. Throws
+/// std::runtime_error when the step has become too small to advance.
 template <std::size_t N, class Slope, class Stop>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
                                    const OdeState<N>& scale, double tolerance, double largest_step,
@@ -86,7 +87,8 @@ std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end,
 template <std::size_t N, class Slope>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
                                    const OdeState<N>& scale, double tolerance, double largest_step) {
-  return integrate(slope, begin, end, start, scale, tolerance, largest_step, [](const OdePoint<N>&) { return false; });
+  return integrate(slope, begin, end, start, scale, tolerance, largest_step,
+                   [](const OdePoint<N>&) { return false; });
 }
 
 }  // namespace undex::exact

@@ -1,13 +1,13 @@
-// Riemann problem between any two fluid laws: two uniform states meet at x = 0 and t = 0, and the solution depends on
-// x/t alone. Pressure and velocity are found where the wave curves of the two sides cross (the construction of E. F.
-// Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, chapter 4, here with isentropes and shock states
-// computed from the law). SI units.
+// Riemann problem between any two fluid laws: two uniform states meet at x = 0 and t = 0, and the solution
+// depends on x/t alone. Pressure and velocity are found where the wave curves of the two sides cross (the
+// construction of E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, chapter 4, here with
+// isentropes and shock states computed from the law). SI units.
 //
 // Barotropic laws have no energy equation: their shocks obey the conditions of mass and momentum only.
-// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less, each stays at its floor
-// and a cavity opens between them, as a vacuum does between two gases.
-// Sides must be convex (the speed u + c rises with compression along the isentrope), as all laws in the library are
-// in the range of the scenes; composite waves are not built.
+// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less, each stays at its
+// floor and a cavity opens between them, as a vacuum does between two gases. Sides must be convex (the speed
+// u + c rises with compression along the isentrope), as all laws in the library are in the range of the
+// scenes; composite waves are not built.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,8 @@ struct RiemannSample {
 
 class RiemannSolution {
  public:
-  /// Throws std::invalid_argument unless densities are positive, std::domain_error where a law has no such shock.
+  /// Throws std::invalid_argument unless densities are positive, std::domain_error where a law has no such
+  /// shock.
   RiemannSolution(const RiemannSide& left, const RiemannSide& right);
 
   /// Pressure at the contact [Pa]; with a cavity that on its edges.

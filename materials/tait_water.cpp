@@ -34,7 +34,7 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   if (p_.cavitation == Cavitation::cutoff) {
     rho_limit_ = rho_floor_ = liquid_density(p_.p_floor);
     p_lowest_ = p_.p_floor;
-    sound_cutoff_ = guarded_sound_speed(p_.N * (p_.p_floor - p_.A + p_.B) / rho_limit_);
+    liquid_sound_ = guarded_sound_speed(p_.N * (p_.p_floor - p_.A + p_.B) / rho_limit_);
     energy_limit_ = energy_floor_ = liquid_energy(rho_limit_);
     return;
   }
@@ -46,6 +46,7 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   require(mixture.liquid_sound > 0, "liquid_sound [m/s] must be positive", mixture.liquid_sound);
   require(mixture.p_sat > p_.p_floor, "p_sat [Pa] must exceed p_floor", mixture.p_sat);
   rho_limit_ = liquid_density(mixture.p_sat);
+  liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
   rho_vapour_ = mixture.density_ratio * rho_limit_;
   K_vapour_ = rho_vapour_ * mixture.vapour_sound * mixture.vapour_sound;
   K_liquid_ = rho_limit_ * mixture.liquid_sound * mixture.liquid_sound;

@@ -70,6 +70,8 @@ class TaitWater {
   double liquid_limit() const { return rho_limit_; }
   /// Density at and below which the pressure stays at its floor [kg/m^3]; 0 without cavitation.
   double floor_density() const { return rho_floor_; }
+  /// Sound speed [m/s] of the liquid where it gives way to the cavitation model; 0 without one.
+  double liquid_sound() const { return liquid_sound_; }
   /// p_gl of eq. 33 [Pa]; 0 unless the cavitation model is Schmidt's.
   double pressure_scale() const { return p_gl_; }
 
@@ -88,14 +90,14 @@ class TaitWater {
 
   Parameters p_;
   double rho_limit_ = 0.0, rho_floor_ = 0.0;    // ends of the liquid and of the mixture
-  double p_lowest_ = 0.0, sound_cutoff_ = 0.0;  // pressure on the floor; liquid's sound speed at a cut-off
+  double p_lowest_ = 0.0, liquid_sound_ = 0.0;  // pressure on the floor; liquid's sound speed at its limit
   double rho_vapour_ = 0.0, K_vapour_ = 0.0, K_liquid_ = 0.0, p_gl_ = 0.0;
   double energy_limit_ = 0.0, energy_floor_ = 0.0;  // compression energies at the two ends
 };
 
 inline PressureSound TaitWater::evaluate(double rho, double) const {
   if (rho < rho_limit_) {
-    if (p_.cavitation == Cavitation::cutoff) return {p_lowest_, sound_cutoff_};
+    if (p_.cavitation == Cavitation::cutoff) return {p_lowest_, liquid_sound_};
     const double alpha = void_fraction(rho);
     const double rho_mixture = std::max(rho, rho_vapour_);  // thinner than pure vapour: its state is kept
     const double pressure = rho > rho_floor_ ? mixture_pressure(rho, alpha) : p_lowest_;

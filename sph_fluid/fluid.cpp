@@ -258,6 +258,9 @@ struct Fluid::Implementation {
       }
       q.p = state.pressure;
       q.c = state.sound_speed;
+      // A cavity closes against liquid: with the mixture's own few m/s neither the dissipation nor the step would see
+      // that coming (energy error 5 % over the closing of a cavity instead of 0.3 %).
+      if constexpr (requires { law.liquid_sound(); }) q.c = std::max(q.c, law.liquid_sound());
       q.h = group.h0;
       q.gas = variable ? 1.0 : 0.0;
       if (variable) {

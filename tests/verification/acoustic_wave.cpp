@@ -1,4 +1,7 @@
 // A standing sound wave of small amplitude in a closed column of water: its period is 2 L/c.
+// On a lattice the discrete gradient of a linear field is M = -sum V x^2 F times the exact one, and sound travels at M c
+// however fine the lattice. In 1D M is 0.98765 for Wendland's kernel at h = 1.5 dx (0.9974 in 2D, 1.0006 in 3D), and 1.0001
+// for the Gaussian at h = 1.2 dx.
 #include <numbers>
 
 #include "bodies.hpp"
@@ -7,7 +10,7 @@ namespace undex::sph::testing {
 namespace {
 
 /// Period [s] measured between the first and the third passage through zero of the mode's velocity.
-double period(int particles, SchemeName scheme, double& sound) {
+double period(int particles, SchemeName scheme, KernelName kernel, double& sound) {
   const double length = 1.0, amplitude = 0.1, pi = std::numbers::pi;
   Settings settings = scene_1d(length / particles, scheme);
   // A body has one velocity, so every particle is a body.
@@ -20,6 +23,8 @@ double period(int particles, SchemeName scheme, double& sound) {
   wall.name = "ends";
   wall.container = Box{Vec3(0, -9, -9), Vec3(length, 9, 9)};
   settings.walls = {wall};
+  settings.numerics.kernel = kernel;
+  settings.numerics.eta = kernel == KernelName::gaussian ? 1.2 : 1.5;
   settings.numerics.alpha = 0.05;
   settings.numerics.beta = 0;
   Fluid fluid(settings);
@@ -46,13 +51,20 @@ TEST_P(AcousticWave, PeriodConverges) {
   std::vector<double> error;
   for (const int particles : {16, 32, 64}) {
     double sound = 0;
-    const double measured = period(particles, GetParam(), sound);
+    const double measured = period(particles, GetParam(), KernelName::gaussian, sound);
     error.push_back(std::abs(measured * sound / 2.0 - 1.0));
     report("period_error_" + std::to_string(particles), error.back());
   }
   report("order", std::log2(error[0] / error[2]) / 2);
   EXPECT_LT(error[2], 0.01);
-  EXPECT_LT(error[2], 0.7 * error[0]);
+  EXPECT_LT(error[2], 0.5 * error[0]);
+}
+
+TEST_P(AcousticWave, LatticeSumOfWendlandSlowsSound) {
+  double sound = 0;
+  const double measured = period(64, GetParam(), KernelName::wendland_c2, sound);
+  report("period_error_wendland", measured * sound / 2.0 - 1.0);
+  EXPECT_NEAR(measured * sound / 2.0, 1.0 / 0.98765, 0.003);
 }
 
 INSTANTIATE_TEST_SUITE_P(, AcousticWave, ::testing::Values(SchemeName::monaghan, SchemeName::riemann),

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "materials/library.hpp"
+#include "scene/numbers.hpp"
 #include "scene/schema.hpp"
 #include "scratch.hpp"
 
@@ -33,6 +34,35 @@ TEST(Documentation, NamesEveryKeyWithItsUnit) {
       }
       EXPECT_TRUE(found) << "[" << section.name << "] " << key.name << " [" << key.unit << "]";
     }
+}
+
+TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
+  const std::string text = page();
+  const auto part = [&](const std::string& heading) {
+    const auto begin = text.find("\n## " + heading);
+    return text.substr(begin, text.find("\n## ", begin + 1) - begin);
+  };
+  const sph::Numerics numerics;
+  const fem::Settings structure{};
+  const coupling::Settings coupling;
+  const auto expect = [&](const std::string& heading, const std::string& key, double value) {
+    const std::string row = "\n| `" + key + "` | - | " + shortest(value);
+    const auto at = part(heading).find(row);
+    EXPECT_TRUE(at != std::string::npos && std::string(" ;").find(part(heading)[at + row.size()]) != std::string::npos)
+        << heading << " " << key << ": " << value;
+  };
+  expect("[scheme]", "eta", numerics.eta);
+  expect("[scheme]", "alpha", numerics.alpha);
+  expect("[scheme]", "beta", numerics.beta);
+  expect("[scheme]", "courant", numerics.courant);
+  expect("[scheme]", "h_low", numerics.h_low);
+  expect("[scheme]", "h_high", numerics.h_high);
+  expect("[structure]", "courant", structure.courant);
+  expect("[structure]", "linear_viscosity", structure.linear_viscosity);
+  expect("[structure]", "quadratic_viscosity", structure.quadratic_viscosity);
+  expect("[coupling]", "window", coupling.window);
+  EXPECT_NE(part("[scheme]").find(numerics.scheme == sph::SchemeName::riemann ? "`name` | - | \"riemann\"" : "`name` | - | \"monaghan\""),
+            std::string::npos);
 }
 
 TEST(Documentation, ExamplesAreGoodScenes) {

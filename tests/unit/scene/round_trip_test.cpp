@@ -25,7 +25,7 @@ jitter = 0.01
 [symmetry]
 planes = ["y"]
 [scheme]
-name = "riemann"
+name = "monaghan"
 kernel = "gaussian"
 eta = 1.25
 alpha = 0.5
@@ -165,7 +165,7 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.fluid.lattice.origin, Vec3(0.1, 0.2, 0.3));
   EXPECT_EQ(scene.fluid.lattice.jitter, 0.01);
   EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
-  EXPECT_EQ(scene.fluid.numerics.scheme, sph::SchemeName::riemann);
+  EXPECT_EQ(scene.fluid.numerics.scheme, sph::SchemeName::monaghan);
   EXPECT_EQ(scene.fluid.numerics.eta, 1.25);
   EXPECT_EQ(scene.fluid.numerics.fixed_step, 1e-8);
   EXPECT_EQ(scene.fluid.numerics.h_high, 3);
