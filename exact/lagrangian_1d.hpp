@@ -2,16 +2,15 @@
 // for tests and comparisons, and the state from which a run with a spherical start begins. SI units.
 //
 // Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells
-// of fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbouring
-// cell),
-//   M du/dt = A (P_inside - P_outside),   m de/dt = -P d(V)/dt,   dr/dt = u.
+// of fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbour's),
+//   M du/dt = A (P_inside - P_outside),   m de/dt = -P dV/dt,   dr/dt = u.
 // The energy of a cell is changed by the very forces that move its two nodes, over the mean of their old and
 // new velocities; so kinetic plus internal energy keeps its value to round-off, whatever the step (the
 // "compatible" form of E. J. Caramana, D. E. Burton, M. J. Shashkov, P. P. Whalen, J. Comput. Phys. 146,
-// 1998). Time: predictor and corrector, second order; for small waves it is stable up to a Courant number of
-// one. Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann
-// and Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring
-// velocity gradients, takes it out of smooth compression (R. B. Christensen's form).
+// 1998). Time: predictor and corrector, second order; for small waves stable up to a Courant number of one.
+// Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann and
+// Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring velocity
+// gradients, takes it out of smooth compression (R. B. Christensen's form).
 #pragma once
 
 #include <limits>

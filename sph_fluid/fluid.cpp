@@ -28,7 +28,6 @@ struct Group {
   double rho_start = 0;                  // [kg/m^3], the density at which h is h0
   double h_max = 0;                      // [m], the largest at present
   std::vector<double> lighting;          // burning charges only, by id - begin [s]
-  std::vector<double> burned;            // largest burn fraction met, by id - begin
   CellList cells;
 };
 
@@ -89,6 +88,7 @@ struct Fluid::Implementation {
   CellList wall_cells;
   bool walls_packed = false;
 
+  int threads = 1;
   std::vector<Scratch> scratch;
   PassTimers timers;
   double time = 0;
@@ -101,11 +101,12 @@ struct Fluid::Implementation {
   Clamps clamps;
 
   explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme)) {
-    const int threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
+    threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
     omp_set_num_threads(threads);
-    scratch.resize(std::max(threads, omp_get_max_threads()));
+    scratch.resize(threads);
     fill();
     rigid = line_walls(settings);
+    evaluate(0.0, 0.0);
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -152,7 +153,6 @@ struct Fluid::Implementation {
         particles.id[at] = at;
         if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
       }
-      group.burned.assign(group.lighting.size(), 0.0);
       group.end = at;
       groups.push_back(std::move(group));
     }
@@ -274,15 +274,17 @@ struct Fluid::Implementation {
     group.h_max = h_max;
   }
 
-  materials::PressureSound burning_state(const materials::Jwl& law, Group& group, std::uint32_t k, double rho, double energy) {
+  materials::PressureSound burning_state(const materials::Jwl& law, const Group& group, std::uint32_t k, double rho,
+                                         double energy) const {
     const materials::ProgrammedBurn& burn = *group.body->burn;
     double fraction = 1.0;
     if (!burn.instantaneous) {
       // The front is timed from where the zone was at the start.
       const double since = evaluation_time - group.lighting[k];
       const double timed = burn.width > 0 ? std::clamp(since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
-      const double squeezed = burn.fraction(burn.origin, -1.0, rho / group.body->material.rho0);
-      fraction = group.burned[k] = std::max({group.burned[k], timed, squeezed});
+      // Burn by compression is not kept once the zone expands again: kept, the maximum would climb on the unburned
+      // charge's own noise until it detonates by itself.
+      fraction = std::max(timed, burn.fraction(burn.origin, -1.0, rho / group.body->material.rho0));
     }
     return materials::burning(law, rho, energy, fraction);
   }
@@ -379,6 +381,7 @@ struct Fluid::Implementation {
 
   /// Rates at the present positions, with the state predicted for the end of a step (see equation_of_state).
   void evaluate(double half, double bend) {
+    omp_set_num_threads(threads);  // another fluid of this process may have asked for another number
     sort();
     equation_of_state(half, bend);
     particles.remember_rates();

@@ -23,9 +23,9 @@ struct Grid {
 
 using Visit = std::function<void(const Vec3& x, double volume)>;
 
-/// A number in [-0.5, 0.5) from a lattice index: the same jitter wherever and however often a run is repeated.
-double noise(std::uint64_t index, std::uint64_t stream) {
-  std::uint64_t z = index * 3 + stream + 0x9e3779b97f4a7c15ull;
+/// A number in [-0.5, 0.5) from a seed: the same wherever and however often a run is repeated.
+double noise(std::uint64_t seed, std::uint64_t stream) {
+  std::uint64_t z = seed * 3 + stream + 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
   return double((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
@@ -102,13 +102,16 @@ void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& v
       if (settings.symmetry.axis[a] && x[a] <= 0.0) return false;
     return true;
   };
-  std::uint64_t serial = 0;
   const double jitter = settings.lattice.jitter;
   const auto offer = [&](Vec3 x, double volume, const Vec3& cell) {
-    ++serial;
     if (!kept(x)) return;
-    if (jitter > 0)
-      for (int a = 0; a < grid.dimension; ++a) x[a] += jitter * cell[a] * noise(serial, a);
+    if (jitter > 0) {
+      // The lattice point itself seeds its jitter: every body that asks for the point moves it alike.
+      std::uint64_t seed = 0;
+      for (int a = 0; a < grid.dimension; ++a)
+        seed = seed * 1000003u + std::uint64_t(std::llround(x[a] / grid.step[a] * 64.0) + (1ll << 40));
+      for (int a = 0; a < grid.dimension; ++a) x[a] += jitter * cell[a] * noise(seed, a);
+    }
     visit(x, volume);
   };
   long first[3] = {0, 0, 0}, last[3] = {0, 0, 0};

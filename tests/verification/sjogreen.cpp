@@ -36,6 +36,7 @@ Errors run(int particles, SchemeName scheme) {
   Settings settings = scene_1d(1.0 / particles, scheme);
   settings.bodies = {slab("left", 0, 0.5, "sjogreen-gas", -2), slab("right", 0.5, 1, "sjogreen-gas", 2)};
   for (Body& body : settings.bodies) body.variable_h = true;
+  settings.numerics.courant = 0.1;  // a zone in the middle thins out faster than a sound wave crosses it
   settings.numerics.h_high = 60;  // the gas in the middle is 46 times thinner
   Fluid fluid(settings);
   run_until(fluid, 0.15);
@@ -92,13 +93,13 @@ TEST_P(Sjogreen, ConvergesToTheTwoRarefactions) {
   // Of 400 particles the exact solution leaves one in the middle state, and the density carried by the continuity equation
   // stays ten times too high there: the middle alone keeps the whole norm at order one half. A density by summation, or
   // one that is renewed from the spacing of the particles, should do better; then tighten these bounds.
-  EXPECT_LT(fine.rho, 0.036);
+  EXPECT_LT(fine.rho, 0.035);
   EXPECT_LT(fine.u, 0.022);
   EXPECT_LT(fine.p, 0.011);
-  EXPECT_LT(fine.fan, 0.031);
-  EXPECT_GT(std::log2(coarse.rho / fine.rho), 0.45);
+  EXPECT_LT(fine.fan, 0.029);
+  EXPECT_GT(std::log2(coarse.rho / fine.rho), 0.5);
   EXPECT_GT(std::log2(coarse.p / fine.p), 0.65);
-  EXPECT_GT(std::log2(coarse.fan / fine.fan), GetParam() == SchemeName::riemann ? 0.7 : 0.8);
+  EXPECT_GT(std::log2(coarse.fan / fine.fan), 0.8);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Sjogreen, ::testing::Values(SchemeName::monaghan, SchemeName::riemann),

@@ -273,6 +273,21 @@ TEST(CellList, OrderDoesNotDependOnThreads) {
   EXPECT_EQ(one.order(), three.order());
 }
 
+/// The runtime may give fewer threads than asked for (OMP_THREAD_LIMIT, a nested region): no particle may be lost.
+TEST(CellList, FewerThreadsThanAskedForLoseNothing) {
+  const Points p = scatter(20000);
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(3);
+  CellList cells;
+#pragma omp parallel num_threads(2)
+  {
+#pragma omp single
+    cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 20000, 0.1);
+  }
+  omp_set_num_threads(before);
+  expect_sorted(cells, p, 0, 20000);
+}
+
 /// A stray particle must cost neither memory nor correctness.
 TEST(CellList, StrayParticlesDoNotCostMemory) {
   Points p = scatter(5000);
