@@ -72,11 +72,21 @@ std::vector<double> Probes::read(const Channel& channel, const Simulation& simul
   return row;
 }
 
+void Probes::append(Channel& channel, const std::vector<double>& row) {
+  channel.history.append(row);
+  for (std::size_t c = 0; c < row.size(); ++c) channel.samples[c].push_back(row[c]);
+}
+
 void Probes::sample(const Simulation& simulation) {
+  for (Channel& channel : channels_) append(channel, read(channel, simulation));
+}
+
+void Probes::sample_before(const Simulation& simulation, double time) {
   for (Channel& channel : channels_) {
-    const std::vector<double> row = read(channel, simulation);
-    channel.history.append(row);
-    for (std::size_t c = 0; c < row.size(); ++c) channel.samples[c].push_back(row[c]);
+    if (channel.probe.kind == scene::Probe::Kind::fluid) continue;  // it may lie inside the wave
+    std::vector<double> row = read(channel, simulation);
+    row[0] = time;
+    append(channel, row);
   }
 }
 

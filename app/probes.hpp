@@ -21,6 +21,9 @@ class Probes {
 
   /// Appends one row to every history.
   void sample(const Simulation& simulation);
+  /// Appends a row for `time` [s] before the simulation's own, with its present values: where nothing has arrived yet
+  /// (walls and structures before a spherical start's takeover) they are those of the start.
+  void sample_before(const Simulation& simulation, double time);
   void flush();
 
   /// Samples of one column ("pressure", "displacement_x", ...) of a probe; empty where there is none.
@@ -36,6 +39,7 @@ class Probes {
     std::vector<std::vector<double>> samples;        ///< one series per column, time first
   };
   std::vector<double> read(const Channel& channel, const Simulation& simulation) const;
+  static void append(Channel& channel, const std::vector<double>& row);
 
   std::vector<Channel> channels_;
   int dimension_;

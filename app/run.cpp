@@ -14,6 +14,7 @@
 #include "app/progress.hpp"
 #include "app/simulation.hpp"
 #include "app/snapshots.hpp"
+#include "app/spherical_start.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/history.hpp"
@@ -113,6 +114,10 @@ int run(const scene::Scene& given, const RunOptions& options) {
   output::write_text_atomically(folder / "scene.toml", options.scene_text);
   output::write_text_atomically(folder / "resolved.toml", scene::to_toml(scene));
 
+  if (scene.start.kind == scene::Start::Kind::spherical) {
+    const std::string report = begin_spherically(scene);
+    if (options.verbosity >= 0) std::printf("%s\n", report.c_str());
+  }
   Simulation simulation(scene);
   Probes probes(scene, simulation, folder);
   EnergyHistory energy(folder);
@@ -140,7 +145,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
     probes.sample(simulation);
     energy.sample(simulation);
   };
-  double next_history = 0, next_snapshot = snapshots.next_after(-1.0);
+  double next_history = 0, next_snapshot = snapshots.next_after(simulation.time() > 0 ? simulation.time() : -1.0);
   const auto observe = [&] {
     const double now = simulation.time() * (1 + 1e-12);
     if (now >= next_history || now >= scene.end_time) {
@@ -155,6 +160,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
   };
 
   try {
+    if (simulation.time() > 0) probes.sample_before(simulation, 0.0);
     observe();
     while (simulation.time() < scene.end_time * (1 - 1e-12)) {
       simulation.advance(std::min(scene.end_time, next_snapshot));

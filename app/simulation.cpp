@@ -20,6 +20,7 @@ Simulation::Simulation(const scene::Scene& scene) {
   };
   if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
   if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
+  if (structure_ && scene.fluid.start_time > 0) structure_->advance(scene.fluid.start_time, {});
   if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
     attempt([&] { coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *structure_, scene.coupling); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);

@@ -161,7 +161,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
   sph::Body body{std::to_string(index), {Sphere{Vec3::Zero(), 0}, {}}, {"", "", TaitWater({}), 1000.0}, {}, Vec3::Zero(),
-                 {}, {}, {}, {}, false};
+                 {}, {}, {}, {}, false, {}};
   table.need("name", "every body has a name");
   table.read_name("name", body.name);
   if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))

@@ -1,4 +1,4 @@
-// [[probes]], [output] and [comparison].
+// [start], [[probes]], [output] and [comparison].
 #include <algorithm>
 
 #include "scene/draft.hpp"
@@ -64,6 +64,23 @@ void read_output_table(const TableReader& top, Draft& draft) {
   table.read("structure_fields", output.structure_fields);
 }
 
+void read_start(const TableReader& top, Draft& draft) {
+  Start& start = draft.scene.start;
+  const Node* node = top.table("start");
+  if (!node) return;
+  const TableReader table(*node, "start", "start", top.dimension(), draft.report);
+  table.read_choice<Start::Kind>("kind", start.kind, {{"plain", Start::Kind::plain}, {"spherical", Start::Kind::spherical}});
+  if (table.read("body", start.body) && !start.body.empty()) {
+    std::vector<std::string> names;
+    for (const sph::Body& body : draft.scene.fluid.bodies) names.push_back(body.name);
+    if (std::find(names.begin(), names.end(), start.body) == names.end())
+      table.complain("body", "start.body: no body '" + start.body + "'" + suggestion(start.body, names));
+  }
+  if (double time; table.read("time", time)) start.time = time;
+  if (start.kind == Start::Kind::spherical && top.dimension() != 3)
+    table.complain("kind", "start.kind = \"spherical\" needs dimension = 3");
+}
+
 void read_comparison(const TableReader& top, Draft& draft) {
   Comparison& comparison = draft.scene.comparison;
   comparison.kind = "none";
@@ -95,6 +112,7 @@ void read_output(Draft& draft) {
   const auto probes = top.tables("probes");
   for (std::size_t i = 0; i < probes.size(); ++i) read_probe(*probes[i], element_path("probes", *probes[i], i), draft);
   read_output_table(top, draft);
+  read_start(top, draft);
   read_comparison(top, draft);
 }
 

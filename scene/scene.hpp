@@ -13,6 +13,16 @@
 
 namespace undex::scene {
 
+/// How the run begins.
+struct Start {
+  /// plain: every body uniform at time zero. spherical: until the wave from a spherical charge (or bubble) nears the first
+  /// obstacle, the flow is one-dimensional: it is computed on a fine one-dimensional mesh and laid on the particles then.
+  enum class Kind { plain, spherical };
+  Kind kind = Kind::plain;
+  std::string body;              ///< the charge; default: the only spherical body of gas or products
+  std::optional<double> time;    ///< [s] when particles take over; default: when the front is a kernel's reach from the obstacle
+};
+
 /// A point whose values are written as a history.
 struct Probe {
   enum class Kind {
@@ -52,6 +62,7 @@ struct Scene {
   sph::Settings fluid;                    ///< without bodies where there is no fluid
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
+  Start start;
   std::vector<Probe> probes;
   Output output;
   Comparison comparison;

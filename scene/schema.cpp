@@ -28,7 +28,7 @@ std::vector<Section> make_schema() {
   return {
       {"",
        {word("name"), word("title"), between("dimension", 1, 3), above("end_time", 0, 1e3, "s"),
-        between("threads", 0, 4096), word("deterministic"), word("resolution"), word("symmetry"), word("scheme"),
+        between("threads", 0, 4096), word("deterministic"), word("resolution"), word("symmetry"), word("scheme"), word("start"),
         word("materials"), word("bodies"), word("walls"), word("structure"), word("coupling"), word("probes"),
         word("output"), word("comparison")}},
       {"resolution",
@@ -38,6 +38,7 @@ std::vector<Section> make_schema() {
        {word("name"), word("kernel"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
         above("courant", 0, 1), above("fixed_step", 0, 1, "s"), between("h_low", 0.1, 1), between("h_high", 1, 20)}},
 
+      {"start", {word("kind"), word("body"), above("time", 0, 1e3, "s")}},
       {"bodies",
        {word("name"), word("shape"), word("subtract"), word("material"), length("spacing"), speed,
         any("pressure", "Pa"), positive("density", "kg/m^3"), any("energy", "J/kg"), word("burn"),

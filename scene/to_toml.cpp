@@ -337,6 +337,12 @@ std::string to_toml(const Scene& scene) {
     writer.put("slip", scene.coupling.free_slip);
     writer.put("window", scene.coupling.window);
   }
+  if (!scene.fluid.bodies.empty()) {
+    writer.table("[start]", "start");
+    writer.put("kind", scene.start.kind == Start::Kind::spherical ? "spherical" : "plain");
+    if (!scene.start.body.empty()) writer.put("body", scene.start.body);
+    if (scene.start.time) writer.put("time", *scene.start.time);
+  }
   for (const Probe& probe : scene.probes) {
     writer.table("[[probes]]", "probes");
     writer.put("name", probe.name);

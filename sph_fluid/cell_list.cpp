@@ -63,9 +63,9 @@ void CellList::build(const double* x, const double* y, const double* z, std::uin
   order_.resize(n);
 #pragma omp parallel num_threads(threads)
   {
-    const int t = omp_get_thread_num();
-    const std::uint32_t from = std::uint32_t(std::uint64_t(n) * t / threads);
-    const std::uint32_t to = std::uint32_t(std::uint64_t(n) * (t + 1) / threads);
+    const int t = omp_get_thread_num(), team = omp_get_num_threads();  // the team may be smaller than asked for
+    const std::uint32_t from = std::uint32_t(std::uint64_t(n) * t / team);
+    const std::uint32_t to = std::uint32_t(std::uint64_t(n) * (t + 1) / team);
     std::uint32_t* mine = histogram_.data() + std::size_t(t) * cell_count;
     for (std::uint32_t k = from; k < to; ++k) {
       const std::uint32_t ix = std::uint32_t((x[first + k] - grid_.low[0]) * inverse[0]);
@@ -80,7 +80,7 @@ void CellList::build(const double* x, const double* y, const double* z, std::uin
       std::uint32_t sum = 0;
       for (std::size_t c = 0; c < cell_count; ++c) {
         start_[c] = first + sum;
-        for (int u = 0; u < threads; ++u) {
+        for (int u = 0; u < team; ++u) {
           std::uint32_t& slot = histogram_[std::size_t(u) * cell_count + c];
           const std::uint32_t here = slot;
           slot = sum;

@@ -104,6 +104,8 @@ struct Fluid::Implementation {
     threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
     omp_set_num_threads(threads);
     scratch.resize(threads);
+    time = evaluation_time = settings.start_time;
+    dissipated = settings.heat_before;
     fill();
     rigid = line_walls(settings);
     evaluate(0.0, 0.0);
@@ -154,8 +156,41 @@ struct Fluid::Implementation {
         if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
       }
       group.end = at;
+      if (body.start) lay_on(*body.start, group);
       groups.push_back(std::move(group));
     }
+  }
+
+  /// Replaces a body's uniform start; mass, kinetic energy and (with an energy field) internal energy become exact.
+  void lay_on(const StartField& start, Group& group) {
+    Particles& p = particles;
+    const bool with_energy = materials::uses_energy(group.body->material.law);
+    double mass = 0, volume = 0, kinetic = 0, internal = 0;
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const double cell = p.mass[i] / p.rho[i];
+      const StartState state = start.state({p.x[i], p.y[i], p.z[i]}, group.spacing);
+      p.rho[i] = state.density;
+      p.mass[i] = state.density * cell;
+      p.vx[i] = state.velocity[0];
+      p.vy[i] = state.velocity[1];
+      p.vz[i] = state.velocity[2];
+      if (with_energy) p.energy[i] = state.energy;
+      mass += p.mass[i];
+      volume += cell;
+      kinetic += 0.5 * p.mass[i] * state.velocity.squaredNorm();
+      internal += p.mass[i] * state.energy;
+    }
+    const double heavier = start.mass / mass;
+    const double faster = kinetic > 0 ? std::sqrt(start.kinetic_energy / (kinetic * heavier)) : 1.0;
+    const double hotter = internal > 0 ? start.internal_energy / (internal * heavier) : 1.0;
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      p.mass[i] *= heavier;
+      p.vx[i] *= faster;
+      p.vy[i] *= faster;
+      p.vz[i] *= faster;
+      if (with_energy) p.energy[i] *= hotter;
+    }
+    group.rho_start = start.mass / volume;
   }
 
   // ---- The passes of a step -------------------------------------------------------------------------------------------
@@ -421,12 +456,14 @@ struct Fluid::Implementation {
     const bool viscous = numerics.scheme == SchemeName::monaghan;
     const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
     std::uint32_t worst = 0;
-    bool force = false, finite = true;
+    const char* criterion = "Courant";
+    bool finite = true;
 #pragma omp parallel
     {
       double best = std::numeric_limits<double>::infinity();
       std::uint32_t where = 0;
-      bool by_force = false, ok = true;
+      const char* by = criterion;
+      bool ok = true;
 #pragma omp for schedule(static)
       for (std::uint32_t i = 0; i < particles.size(); ++i) {
         const PackedParticle& q = packed[i];
@@ -434,11 +471,13 @@ struct Fluid::Implementation {
         const double signal = q.c + alpha * q.c + beta * particles.closing[i];
         const double courant = numerics.courant * q.h / signal;
         const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
+        const double squeeze = 0.2 / (std::abs(particles.compression[i]) + 1e-300);
         ok = ok && std::isfinite(a2) && std::isfinite(signal);
-        if (std::min(courant, push) < best) {
-          best = std::min(courant, push);
+        const double least = std::min({courant, push, squeeze});
+        if (least < best) {
+          best = least;
           where = i;
-          by_force = push < courant;
+          by = least == courant ? "Courant" : least == push ? "force" : "density";
         }
       }
 #pragma omp critical
@@ -448,12 +487,12 @@ struct Fluid::Implementation {
         if (best < limit.step || (best == limit.step && where < worst)) {
           limit.step = best;
           worst = where;
-          force = by_force;
+          criterion = by;
         }
       }
     }
     if (!finite) stop_at_bad_value();
-    limit.criterion = force ? "force" : "Courant";
+    limit.criterion = criterion;
     limit.particle = particles.id[worst];
     limit.position = {particles.x[worst], particles.y[worst], particles.z[worst]};
     limit.body = body_of(worst).name;

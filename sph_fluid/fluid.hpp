@@ -20,7 +20,7 @@ const char* cpu_level();
 /// The largest stable step and what set it.
 struct StepLimit {
   double step = 0;         ///< [s]
-  std::string criterion;   ///< "Courant", "force" or "fixed"
+  std::string criterion;   ///< "Courant", "force", "density" (it may change by a fifth) or "fixed"
   std::uint32_t particle = 0;
   Vec3 position = Vec3::Zero();
   std::string body;

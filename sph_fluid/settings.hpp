@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +44,22 @@ struct Lattice {
   double jitter = 0;
 };
 
+/// State of one particle at the start.
+struct StartState {
+  double density = 0;           ///< [kg/m^3]
+  double energy = 0;            ///< specific internal energy [J/kg]; ignored where the law is barotropic
+  Vec3 velocity = Vec3::Zero(); ///< [m/s]
+};
+
+/// A start that is not uniform, from a computation before this one.
+struct StartField {
+  /// State of the particle at x [m] that stands for a cell of width `spacing` [m].
+  std::function<StartState(const Vec3& x, double spacing)> state;
+  double mass = 0;              ///< of the kept part [kg]; the particles' masses are scaled to it
+  double kinetic_energy = 0;    ///< of the kept part [J]; velocities are scaled to it
+  double internal_energy = 0;   ///< of the kept part [J]; energies are scaled to it where the law has them
+};
+
 struct Body {
   std::string name;
   Shape shape;
@@ -54,6 +72,7 @@ struct Body {
   std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
+  std::shared_ptr<const StartField> start;  ///< null: uniform, as above
 };
 
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
@@ -88,6 +107,8 @@ struct Settings {
   std::vector<Wall> walls;
   Symmetry symmetry;
   Numerics numerics;
+  double start_time = 0;                  ///< [s]
+  double heat_before = 0;                 ///< dissipated before the start, in barotropic bodies of the kept part [J]
 };
 
 }  // namespace undex::sph

@@ -30,7 +30,7 @@ UNDEX_INLINE Vec maximum(Vec a, Vec b) { return a > b ? a : b; }
 UNDEX_INLINE Vec keep(Mask m, Vec a) { return m ? a : Vec{}; }
 
 #if UNDEX_LANES == 8
-/// 1/a to about 1e-15 relative: 14-bit estimate and one third-order step.
+/// 1/a to 3e-13 relative: 14-bit estimate and one third-order step.
 UNDEX_INLINE Vec reciprocal(Vec a) {
   const Vec r = (Vec)_mm512_rcp14_pd((__m512d)a);
   const Vec e = 1.0 - a * r;
