@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <limits>
 
 #include "app/simulation.hpp"
+#include "app/spherical_start.hpp"
 #include "core/shapes.hpp"
 
 namespace undex::app {
@@ -53,7 +53,8 @@ std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
 
 }  // namespace
 
-std::string describe(const scene::Scene& scene) {
+std::string describe(const scene::Scene& given) {
+  scene::Scene scene = given;
   using Clock = std::chrono::steady_clock;
   std::string planes;
   for (int a = 0; a < 3; ++a)
@@ -62,6 +63,7 @@ std::string describe(const scene::Scene& scene) {
                             scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s",
                             planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
 
+  if (scene.start.kind == scene::Start::Kind::spherical) text += begin_spherically(scene) + "\n";
   Simulation simulation(scene);
   double memory = 0;
   if (const sph::Fluid* fluid = simulation.fluid()) {
@@ -77,19 +79,21 @@ std::string describe(const scene::Scene& scene) {
 
   // A few steps, for a second at most; the quickest counts, as other programs may be running too.
   const auto begin = Clock::now();
-  double quickest = std::numeric_limits<double>::infinity();
+  double pace = 0;  // simulated seconds per second
   for (int taken = 0; taken < 10 && simulation.time() < scene.end_time * (1 - 1e-12); ++taken) {
     const auto start = Clock::now();
+    const double from = simulation.time();
     if (taken > 1 && start - begin > std::chrono::seconds(1)) break;
     simulation.advance(scene.end_time);
-    quickest = std::min(quickest, std::chrono::duration<double>(Clock::now() - start).count());
+    pace = std::max(pace, (simulation.time() - from) / std::chrono::duration<double>(Clock::now() - start).count());
   }
   const double step = simulation.last_step_size();
-  const double steps = std::ceil(scene.end_time / step);
+  const double left = scene.end_time - scene.fluid.start_time;
+  const double steps = std::ceil(left / step);
   text += format("expected step %.4g us (%s), %.0f steps\n", step * 1e6, simulation.last_step().c_str(), steps);
   text += format("memory about %.0f MB\n", std::ceil(memory / 1e6));
   text += format("run time %s with %d threads, by the first steps; fields and histories not counted\n",
-                 duration(quickest * steps).c_str(), omp_get_max_threads());
+                 duration(left / pace).c_str(), omp_get_max_threads());
   return text;
 }
 

@@ -14,8 +14,6 @@ packages=(
   libeigen3-dev          # small vectors and tensors
   libtomlplusplus-dev    # scene files
   libcli11-dev           # command line
-  libfmt-dev             # text formatting
-  libspdlog-dev          # log lines
   nlohmann-json3-dev     # summary.json
   libgtest-dev           # tests
   libnanoflann-dev       # tests: an independent neighbour search to check ours against

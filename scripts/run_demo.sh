@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # From a bare Debian machine to pictures: installs what is missing, builds, runs a charge in a water-filled aluminium tube
-# (an octant of it, coarse), compares it with experiment and references, and draws it. Usage: scripts/run_demo.sh [folder]
+# (an octant of it), compares it with experiment and references, and draws it. Usage: scripts/run_demo.sh [folder]
 set -euo pipefail
-demo_spacing=0.003   # [m] particle spacing of the demo: the finest whose run stays within 6 minutes on 2 cores
+demo_spacing=0.00125  # [m] particle spacing of the demo: the finest whose run stays within 6 minutes on 2 cores
 scene=cases/al_tube_fem
 
 case ${1:-} in

@@ -333,7 +333,7 @@ struct Fluid::Implementation {
     const auto add = [&](const MovingWall& wall, int index) {
       for (std::size_t k = 0; k < wall.position.size(); ++k) {
         const Vec3 &x = wall.position[k], &v = wall.velocity[k], &n = wall.normal[k];
-        all.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2], wall.volume[k], wall.free_slip ? 1.0 : 0.0, 0.0});
+        all.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2], wall.volume[k], wall.slip(k), 0.0});
         origin.push_back({index, std::uint32_t(k)});
       }
     };
@@ -456,6 +456,7 @@ struct Fluid::Implementation {
     const bool viscous = numerics.scheme == SchemeName::monaghan;
     const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
     std::uint32_t worst = 0;
+    constexpr double fastest = 1e7;  // [m/s]; a hundred times what any explosive does: the run has lost its physics
     const char* criterion = "Courant";
     bool finite = true;
 #pragma omp parallel
@@ -472,7 +473,7 @@ struct Fluid::Implementation {
         const double courant = numerics.courant * q.h / signal;
         const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
         const double squeeze = 0.2 / (std::abs(particles.compression[i]) + 1e-300);
-        ok = ok && std::isfinite(a2) && std::isfinite(signal);
+        ok = ok && std::isfinite(a2) && signal < fastest;
         const double least = std::min({courant, push, squeeze});
         if (least < best) {
           best = least;
@@ -525,7 +526,18 @@ struct Fluid::Implementation {
           throw NumericalStop(text);
         }
     }
-    throw NumericalStop("step " + std::to_string(steps) + ": a value is not finite");
+    const auto fastest = std::max_element(packed.begin(), packed.end(), [](const PackedParticle& a, const PackedParticle& b) {
+      return a.vx * a.vx + a.vy * a.vy + a.vz * a.vz < b.vx * b.vx + b.vy * b.vy + b.vz * b.vz;
+    });
+    const std::uint32_t i = std::uint32_t(fastest - packed.begin());
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "step %ld, time %.6g s: speeds beyond all physics; the fastest is particle %u (body '%s') with %.3g m/s at "
+                  "(%.5g, %.5g, %.5g) m; a smaller scheme.courant or a larger scheme.beta may hold it",
+                  steps, time, p.id[i], body_of(i).name.c_str(),
+                  std::sqrt(fastest->vx * fastest->vx + fastest->vy * fastest->vy + fastest->vz * fastest->vz), fastest->x,
+                  fastest->y, fastest->z);
+    throw NumericalStop(text);
   }
 
   Ledger ledger() const {

@@ -48,10 +48,17 @@ struct PointValues {
 struct MovingWall {
   std::vector<Vec3> position;   ///< [m]
   std::vector<Vec3> velocity;   ///< [m/s]
-  std::vector<Vec3> normal;     ///< unit, pointing away from the fluid
+  std::vector<Vec3> normal;     ///< unit, pointing away from the fluid; behind an edge, the edge's direction
   std::vector<double> volume;   ///< [m^3]
   std::vector<Vec3> impulse;    ///< [N s] received from the fluid since the owner last set it to zero
+  std::vector<int> faces;       ///< how many faces of the wall a particle lies behind; empty: one, for all of them
   bool free_slip = true;
+
+  /// PackedWall::slip of particle k: 1 behind a free-slip face, -1 behind an edge of two, else 0.
+  double slip(std::size_t k) const {
+    const int count = faces.empty() ? 1 : faces[k];
+    return !free_slip || count > 2 ? 0.0 : count == 2 ? -1.0 : 1.0;
+  }
 };
 
 /// Counts of floors and clamps that acted since the start.

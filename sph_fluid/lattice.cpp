@@ -1,5 +1,6 @@
 #include "sph_fluid/lattice.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -160,7 +161,7 @@ Bounds kept_window(const Settings& settings, Bounds box) {
 /// Which faces of the container the point lies beyond, and the outward normal there.
 struct Beyond {
   std::vector<std::string> faces;
-  Vec3 normal = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();   // behind an edge, the edge's direction
   double distance = 0;
 };
 
@@ -204,7 +205,20 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
     throw std::invalid_argument("a wall must be a box or a cylinder");
   }
   result.distance = away.norm();
-  if (result.distance > 0) result.normal = away / result.distance;
+  const int faces = int(result.faces.size());
+  if (faces == 1 && result.distance > 0) result.normal = away / result.distance;
+  if (faces == 2 && dimension == 3) {
+    Vec3 first = Vec3::Zero(), second = Vec3::Zero();
+    if (std::holds_alternative<Box>(container)) {
+      for (int a = 0; a < 3; ++a)
+        if (away[a] != 0.0) (first.isZero() ? first : second)[a] = 1.0;
+    } else {
+      const int axis = std::get<Cylinder>(container).axis;
+      first[axis] = 1.0;
+      second = away - away.dot(first) * first;
+    }
+    result.normal = first.cross(second).normalized();
+  }
   return result;
 }
 
@@ -270,6 +284,8 @@ std::vector<MovingWall> line_walls(const Settings& settings) {
       MovingWall& out = result[condition == FaceCondition::no_slip ? 1 : 0];
       out.position.push_back(x);
       out.normal.push_back(place.normal);
+      // In two dimensions an edge is a corner: nothing slips along it.
+      out.faces.push_back(place.faces.size() == 2 && settings.dimension == 2 ? 3 : int(place.faces.size()));
       out.volume.push_back(cell_volume);
     });
   }

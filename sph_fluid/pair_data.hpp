@@ -27,9 +27,9 @@ struct alignas(16) PackedGradient {
 struct alignas(32) PackedWall {
   double x, y, z;
   double vx, vy, vz;
-  double nx, ny, nz;   ///< unit normal, away from the fluid
+  double nx, ny, nz;   ///< unit normal, away from the fluid; behind an edge, the edge's direction
   double V;            ///< [m^3]
-  double slip;         ///< 1: free slip, 0: no slip
+  double slip;         ///< 1: free slip; 0: no slip, or a free-slip corner (nothing slips there); -1: a free-slip edge
   double spare;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sph_fluid/fluid_lanes.hpp"
+#include "sph_fluid/wall_mirror.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -49,7 +50,7 @@ struct Reconstruction {
   /// The mirrored state: the same pressure, velocity mirrored about the wall's.
   UNDEX_INLINE void wall(const Lanes& i, const PackedWall& w, Vec dx, Vec dy, Vec dz, Vec, Vec, Vec F, Mask,
                          Sums& sums) const {
-    const double stick = 1.0 - w.slip;
+    const double stick = stick_of(w.slip);
     const Vec ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
     const Vec un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
     add(-2.0 * (un * w.nx + stick * ux), -2.0 * (un * w.ny + stick * uy), -2.0 * (un * w.nz + stick * uz), Vec{}, dx, dy,

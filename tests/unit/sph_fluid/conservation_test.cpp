@@ -156,13 +156,13 @@ TEST_P(Conservation, SymmetryPlanesDoNoWork) {
   }
 }
 
-/// Viscosity heats, never cools.
+/// Viscosity heats every particle; of a pairwise flux only the sum must be positive.
 TEST_P(Conservation, HeatIsPositive) {
-  if (GetParam().scheme != SchemeName::monaghan) GTEST_SKIP() << "pairwise flux: the sum only is dissipative";
+  const double least = GetParam().scheme == SchemeName::monaghan ? 0.0 : -std::numeric_limits<double>::infinity();
   const Result r = run(make(3));
   double total = 0;
   for (const Rate& rate : r.rates) {
-    EXPECT_GE(rate.heat, 0.0);
+    EXPECT_GE(rate.heat, least);
     total += rate.heat;
   }
   EXPECT_GT(total, 0.0);

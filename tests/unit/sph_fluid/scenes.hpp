@@ -13,7 +13,7 @@ namespace undex::sph::testing {
 inline Shape box(const Vec3& low, const Vec3& high) { return Shape{Box{low, high}, {}}; }
 
 inline Body body(const std::string& name, const Shape& shape, const std::string& material) {
-  return Body{name, shape, materials::find_fluid(material).value(), {}, Vec3::Zero(), {}, {}, {}, {}, false};
+  return Body{name, shape, materials::find_fluid(material).value(), {}, Vec3::Zero(), {}, {}, {}, {}, false, {}};
 }
 
 inline Wall box_wall(const Vec3& low, const Vec3& high, FaceCondition condition = FaceCondition::free_slip) {

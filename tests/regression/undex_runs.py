@@ -1,0 +1,118 @@
+"""Runs of the program for the tests: start it, read what it wrote, and say what differs."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+
+try:
+    import h5py
+except ImportError:  # the field files are then only looked for, not opened
+    h5py = None
+
+# Other tests run beside these: a thread that waits must not hold a core.
+ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive")
+
+# What summary.json holds for every run; coupled runs also interface_energy_error.
+SUMMARY_KEYS = [
+    "scene", "status", "time_s", "steps", "wall_time_s", "cpu_time_s", "threads", "particles", "wall_particles", "cells",
+    "particle_updates", "neighbour_interactions", "peak_memory_bytes", "mass_error", "momentum_error", "energy_error",
+    "passes", "metrics",
+]
+
+
+def call(program, *arguments, timeout=300, **options):
+    """The finished process, with its output as text."""
+    options.setdefault("env", ENVIRONMENT)
+    return subprocess.run([str(program), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=timeout, **options)
+
+
+def overrides(settings):
+    """{"resolution.spacing": 0.004} as arguments."""
+    return [part for key, value in settings.items() for part in ("-P", f"{key}={value}")]
+
+
+def summary(folder):
+    return json.loads((pathlib.Path(folder) / "summary.json").read_text())
+
+
+class Table:
+    """A history: column names, their units, and the rows as text and as numbers."""
+
+    def __init__(self, path):
+        self.text = pathlib.Path(path).read_text()
+        lines = self.text.splitlines()
+        self.ends_whole = self.text.endswith("\n")
+        self.names, self.units = [], []
+        for head in next(csv.reader(lines[:1])):
+            name, _, unit = head.rpartition(" [")
+            self.names.append(name)
+            self.units.append(unit[:-1] if unit.endswith("]") else None)
+        self.rows = [[float(cell) for cell in row] for row in csv.reader(lines[1:])]
+
+    def column(self, name):
+        at = self.names.index(name)
+        return [row[at] for row in self.rows]
+
+
+def histories(folder):
+    """All CSV files of a run by their name relative to its folder."""
+    folder = pathlib.Path(folder)
+    files = [folder / "energy.csv", *sorted((folder / "history").glob("*.csv"))]
+    return {str(path.relative_to(folder)): Table(path) for path in files}
+
+
+def particle_steps(folder):
+    """[(time, {field: array})] of the particles' snapshots, in order."""
+    steps = []
+    with h5py.File(pathlib.Path(folder) / "fields" / "particles.h5part", "r") as file:
+        for number in sorted(int(name.split("#")[1]) for name in file if name.startswith("Step#")):
+            group = file[f"Step#{number}"]
+            steps.append((float(group.attrs["TimeValue"]), {name: group[name][()] for name in group}))
+    return steps
+
+
+def structure_steps(folder):
+    """[(time, path)] of the structure's snapshots, from their index."""
+    fields = pathlib.Path(folder) / "fields"
+    index = json.loads(next(fields.glob("*.hdf.series")).read_text())
+    return [(float(entry["time"]), fields / entry["name"]) for entry in index["files"]]
+
+
+def datasets(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def differences(one, other):
+    """What differs, bit for bit, between the results of two runs; costs and the number of threads are not results."""
+    found = []
+    first, second = summary(one), summary(other)
+    for key in first.keys() | second.keys():
+        if key in ("wall_time_s", "cpu_time_s", "threads", "passes", "peak_memory_bytes", "scene"):
+            continue
+        if first.get(key) != second.get(key):
+            found.append(f"summary.json {key}: {first.get(key)} and {second.get(key)}")
+    tables, others = histories(one), histories(other)
+    if tables.keys() != others.keys():
+        found.append(f"histories: {sorted(tables)} and {sorted(others)}")
+    for name in tables.keys() & others.keys():
+        if tables[name].text == others[name].text:
+            continue
+        lines = zip(tables[name].text.splitlines(), others[name].text.splitlines())
+        where = next((i for i, (a, b) in enumerate(lines, 1) if a != b), "the end")
+        found.append(f"{name} from line {where} on")
+    names = [{str(p.relative_to(f)) for p in (pathlib.Path(f) / "fields").glob("*.h*")} for f in (one, other)]
+    if names[0] != names[1]:
+        found.append(f"fields: {sorted(names[0])} and {sorted(names[1])}")
+    elif h5py:
+        for name in sorted(n for n in names[0] if not n.endswith(".series")):
+            a, b = datasets(pathlib.Path(one) / name), datasets(pathlib.Path(other) / name)
+            unequal = [key for key in a.keys() | b.keys()
+                       if key not in a or key not in b or a[key].tobytes() != b[key].tobytes()]
+            if unequal:
+                found.append(f"{name}: {', '.join(sorted(unequal)[:5])}")
+    return found
