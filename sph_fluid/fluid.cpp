@@ -25,7 +25,6 @@ struct Group {
   const Body* body = nullptr;
   std::uint32_t begin = 0, end = 0;
   double spacing = 0, h0 = 0;            // [m]
-  double rho_start = 0;                  // [kg/m^3], the density at which h is h0
   double h_max = 0;                      // [m], the largest at present
   std::vector<double> lighting;          // burning charges only, by id - begin [s]
   CellList cells;
@@ -140,7 +139,6 @@ struct Fluid::Implementation {
       group.spacing = body.spacing.value_or(settings.lattice.spacing);
       group.h0 = group.h_max = smoothing_length(settings, group.spacing);
       const double energy = start_energy(body), rho = start_density(body, energy);
-      group.rho_start = rho;
       for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
         const Vec3& x = bodies[b].position[k];
         particles.x[at] = x[0];
@@ -165,7 +163,7 @@ struct Fluid::Implementation {
   void lay_on(const StartField& start, Group& group) {
     Particles& p = particles;
     const bool with_energy = materials::uses_energy(group.body->material.law);
-    double mass = 0, volume = 0, kinetic = 0, internal = 0;
+    double mass = 0, kinetic = 0, internal = 0;
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
       const double cell = p.mass[i] / p.rho[i];
       const StartState state = start.state({p.x[i], p.y[i], p.z[i]}, group.spacing);
@@ -176,7 +174,6 @@ struct Fluid::Implementation {
       p.vz[i] = state.velocity[2];
       if (with_energy) p.energy[i] = state.energy;
       mass += p.mass[i];
-      volume += cell;
       kinetic += 0.5 * p.mass[i] * state.velocity.squaredNorm();
       internal += p.mass[i] * state.energy;
     }
@@ -190,7 +187,6 @@ struct Fluid::Implementation {
       p.vz[i] *= faster;
       if (with_energy) p.energy[i] *= hotter;
     }
-    group.rho_start = start.mass / volume;
   }
 
   // ---- The passes of a step -------------------------------------------------------------------------------------------
@@ -205,6 +201,23 @@ struct Fluid::Implementation {
       p.x[i] += dt * p.vx[i];
       p.y[i] += dt * p.vy[i];
       p.z[i] += dt * p.vz[i];
+    }
+    // A particle that crosses a symmetry plane changes places with its image.
+    const struct {
+      std::vector<double>&x, &v, &a;
+      std::vector<float>& a_before;
+    } axes[3] = {{p.x, p.vx, p.ax, p.ax_before}, {p.y, p.vy, p.ay, p.ay_before}, {p.z, p.vz, p.az, p.az_before}};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!settings.symmetry.axis[axis]) continue;
+      const auto& [x, v, a, a_before] = axes[axis];
+#pragma omp parallel for schedule(static)
+      for (std::size_t i = 0; i < p.size(); ++i)
+        if (x[i] < 0.0) {
+          x[i] = -x[i];
+          v[i] = -v[i];
+          a[i] = -a[i];
+          a_before[i] = -a_before[i];
+        }
     }
   }
 
@@ -263,7 +276,7 @@ struct Fluid::Implementation {
   void evaluate_group(const Law& law, Group& group, double half, double bend) {
     const Particles& p = particles;
     const bool variable = group.body->variable_h;
-    const double inverse_dimension = 1.0 / settings.dimension;
+    const double inverse_dimension = 1.0 / settings.dimension, cell = std::pow(group.spacing, settings.dimension);
     const double low = settings.numerics.h_low, high = settings.numerics.h_high;
     const bool burning = group.body->burn.has_value();
     double h_max = variable ? 0.0 : group.h0;
@@ -299,7 +312,7 @@ struct Fluid::Implementation {
       q.h = group.h0;
       q.gas = variable ? 1.0 : 0.0;
       if (variable) {
-        const double wanted = std::pow(group.rho_start / q.rho, inverse_dimension);
+        const double wanted = std::pow(q.V / cell, inverse_dimension);
         held += wanted < low || wanted > high;
         q.h *= std::clamp(wanted, low, high);
         h_max = std::max(h_max, q.h);

@@ -96,7 +96,7 @@ struct Numerics {
   double beta = 10.0;         ///< and the quadratic one
   double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
-  double h_low = 0.9, h_high = 2.2;  ///< bounds of h/h0 where it follows density
+  double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density
   int threads = 0;            ///< 0: all the machine has
 };
 

@@ -1,0 +1,469 @@
+#!/usr/bin/env python3
+"""The program from outside: exit codes, messages, what is written and what is left alone, signals, full and read-only disks.
+
+    command_line.py PROGRAM CASES_FOLDER [unittest's options and names, e.g. Signals.test_interrupt]
+    command_line.py --names
+
+Exit codes: 0 done, 1 internal or I/O, 2 usage or scene, 3 stopped by the numerics, 130 and 143 interrupted and terminated.
+"""
+import json
+import os
+import pathlib
+import pty
+import re
+import resource
+import select
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
+import undex_runs as runs  # noqa: E402
+
+PROGRAM = CASES = None
+NOBODY = 65534
+# A tenth of a second of work: gas in one dimension.
+QUICK = {"resolution.spacing": 0.01, "end_time": 0.02, "output.field_times": "[]"}
+# Seconds of it: only to be interrupted.
+LONG = {"resolution.spacing": 0.006, "start.kind": "plain", "end_time": 0.1, "output.field_times": "[]"}
+
+
+def contents(folder):
+    """Every file of a folder with its bytes, every folder with None."""
+    return {str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None for path in pathlib.Path(folder).rglob("*")}
+
+
+def as_nobody():
+    """For preexec_fn: file permissions do not bind root."""
+    if os.geteuid() == 0:
+        os.setgroups([])
+        os.setgid(NOBODY)
+        os.setuid(NOBODY)
+
+
+class Case(unittest.TestCase):
+    """Each test in an empty working folder of its own."""
+
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="undex_command_line_")
+        self.addCleanup(folder.cleanup)
+        self.here = pathlib.Path(folder.name)
+
+    def undex(self, *arguments, **options):
+        options.setdefault("cwd", self.here)
+        return runs.call(PROGRAM, *arguments, **options)
+
+    def quick(self, output="out", *arguments, changes=(), **options):
+        settings = {**QUICK, **dict(changes)}
+        return self.undex("run", CASES / "sjogreen", "-o", output, "-q", *runs.overrides(settings), *arguments, **options)
+
+    def ends(self, finished, code, *patterns):
+        said = f"exit {finished.returncode}\n{finished.stdout}\n{finished.stderr}"
+        self.assertEqual(finished.returncode, code, said)
+        if code != 0:
+            self.assertTrue(finished.stderr.strip(), "no message on stderr")
+        for pattern in patterns:
+            self.assertRegex(finished.stderr, pattern)
+
+    def scene(self, text, name="case.toml"):
+        path = self.here / name
+        path.write_text(text)
+        return path
+
+    def interrupted_record(self, folder, status, message):
+        record = runs.summary(folder)
+        self.assertEqual(record["status"], status)
+        self.assertRegex(record["message"], message)
+        tables = runs.histories(folder)
+        self.assertGreater(len(tables), 1)
+        for name, table in tables.items():
+            self.assertTrue(table.ends_whole, name)
+            self.assertTrue(all(len(row) == len(table.names) for row in table.rows), name)
+            # The step that the numerics stopped is not sampled: the structure may have begun it.
+            self.assertIn(len(table.rows), (record["steps"] + 1, record["steps"] + (status == "interrupted")), name)
+            self.assertLess(abs(table.column("time")[-1] / record["time_s"] - 1), 1e-7 if status == "interrupted" else 0.5, name)
+        return record
+
+
+class Mistakes(Case):
+    GAS = """end_time = 1e-3
+dimension = 1
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "gas"
+shape = {type = "box", low = 0, high = 1}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
+energy = 2.5
+"""
+
+    def nothing_written(self, before):
+        self.assertEqual(contents(self.here), before)
+
+    def test_unknown_key(self):
+        scene = self.scene(self.GAS.replace("energy = 2.5", "energie = 2.5"))
+        before = contents(self.here)
+        for command in ("run", "check"):
+            self.ends(self.undex(command, scene), 2, r"case\.toml:9:1: .*energie", r"did you mean '?energy")
+            self.nothing_written(before)
+
+    def test_every_mistake_at_once(self):
+        scene = self.scene(self.GAS.replace("spacing = 0.01", "spacing = -1\nlatice = 'x'").replace("gamma = 1.4", "gamma = 'a'"))
+        before = contents(self.here)
+        finished = self.undex("run", scene)
+        self.ends(finished, 2, r"case\.toml:4:\d+: .*spacing", r"case\.toml:5:1: .*latice", r"case\.toml:9:\d+: .*gamma")
+        self.nothing_written(before)
+
+    def test_not_toml(self):
+        scene = self.scene(self.GAS + "energy = = 2\n")
+        before = contents(self.here)
+        self.ends(self.undex("run", scene), 2, r"case\.toml:10:\d+: not TOML")
+        self.nothing_written(before)
+
+    def test_wrong_override(self):
+        for change, says in (({"resolution.spacng": 1}, r"-P resolution\.spacng.*did you mean"),
+                             ({"bodies.lefd.density": 1}, r"-P bodies\.lefd.*left"),
+                             ({"bodies.7.density": 1}, r"-P bodies\.7"),
+                             ({"resolution.spacing": "[1"}, r"-P resolution\.spacing.*cannot read"),
+                             ({"end_time": -1}, r"-P end_time")):
+            with self.subTest(change=change):
+                self.ends(self.quick(changes=change), 2, says)
+                self.nothing_written({})
+
+    def test_a_start_that_cannot_be(self):
+        """What only the one-dimensional start can know is a mistake of the scene like any other: refused before writing."""
+        for change in ({"start.time": 1e-3}, {"resolution.spacing": 0.012}):
+            settings = {"resolution.spacing": 0.006, "start.kind": "spherical", **change}
+            for command in (["run", "-o", "out"], ["check"]):
+                with self.subTest(change=change, command=command[0]):
+                    finished = self.undex(command[0], CASES / "rigid_cylinder", *command[1:], *runs.overrides(settings))
+                    written = sorted(contents(self.here))
+                    shutil.rmtree(self.here / "out", ignore_errors=True)
+                    self.ends(finished, 2, r"start\.kind")
+                    self.assertEqual(written, [])
+
+    def test_a_structure_with_wrong_supports(self):
+        """Findings of the solvers' own set-up come before anything is written too."""
+        change = {"structure.supports": '[{face = "middle"}]'}
+        self.ends(self.undex("run", CASES / "tube_pulse", "-o", "out", *runs.overrides(change)), 2, "middle")
+        self.nothing_written({})
+
+    def test_command_line(self):
+        scene = CASES / "sjogreen"
+        for arguments in ([], ["rum"], ["run"], ["run", scene, "--colour"], ["run", scene, "-j", "-1"], ["run", scene, "-j", "two"],
+                          ["run", scene, "-P", "spacing"], ["run", scene, "-P", "=3"], ["run", scene, "-P"],
+                          ["run", scene, "-q", "-v"], ["run", scene, scene], ["check"], ["run", scene, "--tend", "soon"],
+                          ["version", "--xml"], ["run", scene, "-P", "a..b=1"]):
+            with self.subTest(arguments=arguments):
+                finished = self.undex(*arguments)
+                self.assertEqual(finished.returncode, 2, finished.stderr)
+                self.assertTrue(finished.stderr + finished.stdout)
+                self.nothing_written({})
+
+    def test_scene_that_cannot_be_read(self):
+        (self.here / "empty").mkdir()
+        before = contents(self.here)
+        for scene in ("missing.toml", "missing", "empty"):
+            for command in ("run", "check"):
+                with self.subTest(scene=scene, command=command):
+                    self.ends(self.undex(command, scene), 1, scene)
+                    self.nothing_written(before)
+
+    def test_scene_without_permission(self):
+        scene = self.scene(self.GAS)
+        self.here.chmod(0o755)
+        scene.chmod(0)
+        self.needs_nobody()
+        self.ends(self.undex("check", scene, preexec_fn=as_nobody), 1, r"case\.toml")
+
+    def needs_nobody(self):
+        if subprocess.run(["test", "-x", str(PROGRAM)], preexec_fn=as_nobody).returncode != 0:
+            self.skipTest("another user may not run the program here")
+
+
+class OutputFolder(Case):
+    def test_default_name(self):
+        finished = self.undex("run", CASES / "sjogreen", *runs.overrides(QUICK))
+        self.ends(finished, 0)
+        self.assertEqual(runs.summary(self.here / "out" / "sjogreen")["status"], "done")
+
+    def test_last_end_time_counts(self):
+        self.ends(self.quick("a", "--tend", "0.01"), 0)
+        self.assertAlmostEqual(runs.summary(self.here / "a")["time_s"], 0.01)
+        self.ends(self.quick("b", "--tend", "0.01", "-P", "end_time=0.015"), 0)
+        self.assertAlmostEqual(runs.summary(self.here / "b")["time_s"], 0.015)
+
+    def test_not_empty(self):
+        (self.here / "out").mkdir()
+        (self.here / "out" / "thesis.txt").write_text("my only copy")
+        before = contents(self.here)
+        self.ends(self.quick(), 2, r"\bout\b.*not empty.*-o.*--force")
+        self.assertEqual(contents(self.here), before)
+        self.ends(self.quick("out", "--force"), 0)
+        self.assertEqual(runs.summary(self.here / "out")["status"], "done")
+        self.assertEqual((self.here / "out" / "thesis.txt").read_text(), "my only copy")
+
+    def test_empty_one_is_taken(self):
+        (self.here / "out").mkdir()
+        self.ends(self.quick(), 0)
+
+    def test_file_in_its_place(self):
+        (self.here / "out").write_text("a file")
+        for arguments in ([], ["--force"]):
+            self.ends(self.quick("out", *arguments), 2, r"\bout\b.*not a folder.*-o")
+        self.ends(self.quick("out/deeper"), 1, r"out/deeper.*-o")
+        self.assertEqual((self.here / "out").read_text(), "a file")
+
+    def test_written_over(self):
+        """After a run into a used folder nothing of the older run passes for a result of the newer."""
+        self.ends(self.quick("out", changes={"end_time": 0.01, "output.field_times": "[0.005, 0.01]"}), 0)
+        self.ends(self.quick("out", "--force"), 0)
+        self.ends(self.quick("fresh"), 0)
+        self.assertEqual((self.here / "out" / "energy.csv").read_text(), (self.here / "fresh" / "energy.csv").read_text())
+        self.assertEqual(runs.summary(self.here / "out")["time_s"], runs.summary(self.here / "fresh")["time_s"])
+
+    def test_stale_summary(self):
+        """A run over an older one that is killed must not leave the older one's 'done'."""
+        self.ends(self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q", *runs.overrides({**LONG, "end_time": 2e-6})), 0)
+        with subprocess.Popen([PROGRAM, "run", CASES / "rigid_cylinder", "-o", "out", "-v", "--force", *runs.overrides(LONG)],
+                              cwd=self.here, stdout=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) as process:
+            Signals.wait_for_steps(process, 3)
+            process.kill()
+        try:
+            self.assertNotEqual(runs.summary(self.here / "out")["status"], "done")
+        except FileNotFoundError:
+            pass  # no summary is as good
+
+
+class Disk(Case):
+    def test_read_only_folder(self):
+        self.here.chmod(0o755)
+        Mistakes.needs_nobody(self)
+        home = self.here / "results"
+        home.mkdir(mode=0o755)
+        self.ends(self.quick(home / "old"), 0)
+        (home / "old").chmod(0o555)
+        home.chmod(0o555)
+        before = contents(home)
+        self.ends(self.quick(home / "new", preexec_fn=as_nobody), 1, r"results/new.*-o")
+        self.ends(self.quick(home / "old", "--force", preexec_fn=as_nobody), 1, r"results/old.*-o")
+        self.assertEqual(contents(home), before)
+        home.chmod(0o755)
+        (home / "old").chmod(0o755)
+
+    def limited(self, bytes_per_file, **more):
+        """A run that may write so many bytes into a file; each further one fails as on a full disk."""
+        return self.quick("out", "--force", changes={"output.field_times": "[0.01, 0.02]", "resolution.spacing": 0.001},
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_per_file, bytes_per_file)), **more)
+
+    def test_no_byte_can_be_written(self):
+        self.ends(self.quick(), 0)
+        before = contents(self.here)
+        self.ends(self.limited(0), 1, r"cannot write out/scene\.toml: .*-o")
+        self.assertEqual(contents(self.here), before)
+
+    def test_full_while_running(self):
+        for bytes_per_file, victim in ((4096, r"energy\.csv"), (20000, r"particles\.h5part|structure.*\.hdf")):
+            with self.subTest(bytes_per_file=bytes_per_file):
+                self.ends(self.quick("out", "--force"), 0)
+                self.ends(self.limited(bytes_per_file), 1, rf"cannot write out/\S*({victim}): .*-o")
+                status = json.loads((self.here / "out" / "summary.json").read_text())["status"] if (
+                    self.here / "out" / "summary.json").exists() else "none"
+                self.assertNotEqual(status, "done")
+                self.assertFalse([p for p in contents(self.here) if p.endswith(".part")], "a temporary file was left")
+
+    def test_full_file_system(self):
+        """The real thing, where the kernel lets us mount a small file system."""
+        if os.geteuid() != 0 or not shutil.which("unshare"):
+            self.skipTest("only root may mount")
+        for folder in ("small", "copy"):
+            (self.here / folder).mkdir()
+        script = """mount -t tmpfs -o size=64k tmpfs small || exit 77
+            "$@" -o small/first || exit 78
+            dd if=/dev/zero of=small/filling bs=1k count=100 2>/dev/null; cp -a small copy/before
+            "$@" -o small/first --force; code=$?
+            cp -a small copy/after; exit $code"""
+        finished = subprocess.run(["unshare", "-m", "sh", "-c", script, "sh", PROGRAM, "run", CASES / "sjogreen", "-q",
+                                   *runs.overrides(QUICK)], cwd=self.here, env=runs.ENVIRONMENT, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        if finished.returncode == 77 or "unshare" in finished.stderr:
+            self.skipTest(finished.stderr.strip())
+        self.ends(finished, 1, r"cannot write small/first/\S+: No space left on device; free some space")
+        self.assertEqual(contents(self.here / "copy" / "after"), contents(self.here / "copy" / "before"))
+
+
+class Signals(Case):
+    @staticmethod
+    def wait_for_steps(process, count):
+        for line in process.stdout:
+            count -= bool(re.match(r"\s*\d+ ", line))
+            if count <= 0:
+                return
+        raise AssertionError(f"the run ended by itself: {process.wait()}")
+
+    def signalled(self, number, scene="rigid_cylinder", settings=LONG):
+        with subprocess.Popen([PROGRAM, "run", CASES / scene, "-o", "out", "-v", *runs.overrides(settings)], cwd=self.here,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) as process:
+            self.wait_for_steps(process, 5)
+            process.send_signal(number)
+            process.stdout.read()
+            process.stderr.read()
+            return process.wait(timeout=120)
+
+    def test_interrupt(self):
+        self.assertEqual(self.signalled(signal.SIGINT), 130)
+        record = self.interrupted_record(self.here / "out", "interrupted", "SIGINT")
+        self.assertGreaterEqual(record["steps"], 5)
+
+    def test_terminate(self):
+        self.assertEqual(self.signalled(signal.SIGTERM), 143)
+        self.interrupted_record(self.here / "out", "interrupted", "SIGTERM")
+
+    def test_interrupt_of_a_coupled_run(self):
+        settings = {**LONG, "structure.cells": "{through = 2, around = 24, along = 12}"}
+        self.assertEqual(self.signalled(signal.SIGINT, "al_tube_fem", settings), 130)
+        self.interrupted_record(self.here / "out", "interrupted", "SIGINT")
+
+    def test_reader_that_leaves(self):
+        """`undex run | head`: a reader of the progress that goes away does not take the run with it."""
+        with subprocess.Popen([PROGRAM, "run", CASES / "sjogreen", "-o", "out", "-v", *runs.overrides(QUICK)], cwd=self.here,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=runs.ENVIRONMENT) as process:
+            process.stdout.readline()
+            process.stdout.close()
+            process.wait(timeout=120)
+        self.assertEqual(runs.summary(self.here / "out")["status"], "done")
+
+
+class Numerics(Case):
+    def stopped(self, scene, changes, *patterns):
+        finished = self.undex("run", CASES / scene, "-o", "out", "-q", *runs.overrides(changes))
+        self.ends(finished, 3, *patterns)
+        record = self.interrupted_record(self.here / "out", "stopped", patterns[0])
+        self.assertIn(record["message"], finished.stderr)
+
+    def test_fluid(self):
+        self.stopped("rigid_cylinder", {**LONG, "scheme.fixed_step": 1e-5},
+                     r"step \d+, time [\d.e-]+ s: .*particle \d+ \(body '(water|bubble)'\).*\([-\d.e+]+, [-\d.e+]+, [-\d.e+]+\) m")
+
+    def test_structure(self):
+        self.stopped("tube_pulse", {"structure.cells": "{through = 2, around = 16, along = 8}", "output.history_interval": 0,
+                                    "output.field_interval": 0, "structure.loads.0.pressure": "[0, 3e12, 3e12, 0]"},
+                     r"step \d+, time [\d.e-]+ s: cell \d+.*step of [\d.e-]+ s was set by")
+
+    def test_remedy_for_a_fixed_step(self):
+        finished = self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q",
+                              *runs.overrides({**LONG, "scheme.fixed_step": 1e-5}))
+        self.ends(finished, 3, r"fixed_step")
+
+
+class Telling(Case):
+    """Commands that only say something."""
+
+    def test_check_writes_nothing(self):
+        for scene in sorted(p.parent for p in CASES.glob("*/case.toml")):
+            with self.subTest(scene=scene.name):
+                changes = {"resolution.spacing": 0.006} if "tube_" in scene.name or "rigid" in scene.name else {}
+                if scene.name in ("tube_pulse", "cavitating_tube"):
+                    changes = {}
+                finished = self.undex("check", scene, *runs.overrides(changes))
+                self.ends(finished, 0)
+                self.assertEqual(finished.stderr, "")
+                for word in (scene.name, "expected step", "steps", "memory", "run time"):
+                    self.assertIn(word, finished.stdout)
+                for body in re.findall(r'^\[\[bodies\]\]\nname = "(.*?)"', (scene / "case.toml").read_text(), re.M):
+                    self.assertRegex(finished.stdout, rf"{body} +\d+ particles")
+                if "[structure]" in (scene / "case.toml").read_text():
+                    self.assertRegex(finished.stdout, r"\d+ cells")
+                self.assertEqual(contents(self.here), {})
+
+    def test_list(self):
+        finished = self.undex("list")
+        self.ends(finished, 0)
+        for scene in CASES.glob("*/case.toml"):
+            title = re.search(r'^title = "(.*)"', scene.read_text(), re.M).group(1)
+            self.assertRegex(finished.stdout, rf"(?m)^{scene.parent.name} +{re.escape(title)}$")
+        self.assertEqual(contents(self.here), {})
+
+    def test_list_of_ones_own(self):
+        (self.here / "mine" / "gas").mkdir(parents=True)
+        (self.here / "mine" / "gas" / "case.toml").write_text('title = "Gas alone"\n' + Mistakes.GAS)
+        (self.here / "mine" / "bad").mkdir()
+        (self.here / "mine" / "bad" / "case.toml").write_text("end_time = ")
+        finished = self.undex("list", env={**runs.ENVIRONMENT, "UNDEX_CASES": str(self.here / "mine")})
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"(?m)^gas +Gas alone$")
+        self.assertRegex(finished.stdout, r"(?m)^bad +\(cannot be read")
+
+    def test_materials(self):
+        finished = self.undex("materials")
+        self.ends(finished, 0)
+        # A set is a name, a line with its source, and lines of values.
+        sets = re.findall(r"(?m)^([\w.-]+)\n  (\S.*)\n((?:  .+\n?)+)", finished.stdout)
+        names = [name for name, _, _ in sets]
+        self.assertEqual(len(names), len(set(names)))
+        for name, _, values in sets:
+            self.assertRegex(values, r"rho0( \[kg/m\^3\])? = [\d.e+-]+", name)
+        for scene in CASES.glob("*/case.toml"):
+            for used in re.findall(r'^material = "(.*?)"', scene.read_text(), re.M):
+                self.assertIn(used, names)
+        self.assertGreaterEqual({"water-tait", "water-steinberg", "petn", "al-5083-h116"} & set(names),
+                                {"water-tait", "water-steinberg", "petn", "al-5083-h116"})
+
+    def test_version(self):
+        finished = self.undex("version", "--json")
+        self.ends(finished, 0)
+        version = json.loads(finished.stdout)
+        self.assertGreaterEqual(version.keys(), {"version", "git", "compiler", "build_type", "cpu_level"})
+        self.assertTrue(self.undex("version").stdout.startswith(f"undex {version['version']}"))
+
+    def test_help(self):
+        for arguments in (["--help"], ["run", "--help"], ["check", "--help"]):
+            finished = self.undex(*arguments)
+            self.ends(finished, 0)
+            self.assertIn("Usage", finished.stdout)
+
+    def test_progress(self):
+        finished = self.undex("run", CASES / "sjogreen", "-o", "out", "-v", *runs.overrides(QUICK))
+        self.ends(finished, 0)
+        steps = runs.summary(self.here / "out")["steps"]
+        self.assertRegex(finished.stdout, r"(?m)^ *step +time .*dt .*set by +energy err +p max .*steps/s +left$")
+        self.assertEqual(len(re.findall(r"(?m)^ *\d+ +[\d.]+ .*\((?:left|right)", finished.stdout)), steps)
+        self.assertNotIn("\r", finished.stdout)  # no bar but on a terminal
+
+    def test_bar_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        try:
+            with subprocess.Popen([PROGRAM, "run", CASES / "rigid_cylinder", "-o", "out", *runs.overrides(LONG)], cwd=self.here,
+                                  stdout=theirs, stderr=subprocess.DEVNULL, env=runs.ENVIRONMENT) as process:
+                shown, end = b"", time.monotonic() + 60
+                while b" left " not in shown and time.monotonic() < end:
+                    if select.select([ours], [], [], 1)[0]:
+                        shown += os.read(ours, 4096)
+                process.kill()
+        finally:
+            os.close(ours)
+            os.close(theirs)
+        self.assertRegex(shown.decode(), r"\r\[#* *\] +\d+\.\d %, .* left")
+
+
+def names():
+    return [test.id().removeprefix("__main__.") for suite in unittest.defaultTestLoader.loadTestsFromModule(
+        sys.modules["__main__"]) for test in suite]
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--names"]:
+        print("\n".join(names()))
+    elif len(sys.argv) < 3:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    else:
+        PROGRAM, CASES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+        unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
