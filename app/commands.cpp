@@ -51,16 +51,14 @@ std::string whole_text(const fs::path& file) {
   return text.str();
 }
 
-/// Makes the folder ready to be written to; refuses one that holds something.
-void prepare_output(const fs::path& folder, bool force) {
+/// Refuses a folder that holds something; the run makes it when the scene is known to be sound.
+void check_output(const fs::path& folder, bool force) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
   if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
     throw UsageError("the output folder " + folder.string() +
                      " is not empty; name another one with -o, or write over it with --force");
-  fs::create_directories(folder, error);
-  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
 }
 
 /// Folders that may hold scenes, the nearest first.
@@ -99,7 +97,7 @@ int run_scene(const RunArguments& arguments) {
   options.verbosity = arguments.verbosity;
   options.scene_text = whole_text(scene.file);
   options.program = version_line();
-  prepare_output(options.output, arguments.force);
+  check_output(options.output, arguments.force);
   return run(scene, options);
 }
 

@@ -1,6 +1,7 @@
 // The command-line program: arguments in, exit code out, every mistake reported in one place.
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -69,6 +70,9 @@ int failed(ExitCode code, const char* message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow and a reader of stdout that has left are errors of a write, not ends of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return dispatch(argc, argv);
   } catch (const SceneError& error) {

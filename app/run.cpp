@@ -89,6 +89,12 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   return record;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
+}
+
 void print_cost(const output::RunRecord& record) {
   std::printf("%s: %s at %.6g us after %lld steps, %.1f s of wall time, %.1f s of CPU time, %.0f MB\n", record.scene.c_str(),
               record.status.c_str(), record.time_s * 1e6, static_cast<long long>(record.steps), record.wall_time_s,
@@ -111,14 +117,18 @@ int run(const scene::Scene& given, const RunOptions& options) {
   scene::Scene scene = given;
   if (options.threads > 0) scene.fluid.numerics.threads = options.threads;
   const std::filesystem::path& folder = options.output;
-  output::write_text_atomically(folder / "scene.toml", options.scene_text);
-  output::write_text_atomically(folder / "resolved.toml", scene::to_toml(scene));
-
+  const std::string resolved = scene::to_toml(scene);
   if (scene.start.kind == scene::Start::Kind::spherical) {
     const std::string report = begin_spherically(scene);
     if (options.verbosity >= 0) std::printf("%s\n", report.c_str());
   }
   Simulation simulation(scene);
+
+  // Now the scene is known to be sound: nothing was written for one that is not.
+  make_folder(folder);
+  output::write_text_atomically(folder / "scene.toml", options.scene_text);
+  output::write_text_atomically(folder / "resolved.toml", resolved);
+  std::filesystem::remove(folder / "summary.json");  // an older run's must not pass for this one's
   Probes probes(scene, simulation, folder);
   EnergyHistory energy(folder);
   Snapshots snapshots(scene, folder);
@@ -133,7 +143,11 @@ int run(const scene::Scene& given, const RunOptions& options) {
                                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     record.status = status;
     record.message = message;
-    record.metrics = compare(scene, probes);
+    try {
+      record.metrics = compare(scene, probes);
+    } catch (const std::invalid_argument&) {
+      // A history that ends in values that are no numbers has no results; the record of the stop matters more.
+    }
     output::write_summary(folder / "summary.json", record);
     if (options.verbosity >= 0) {
       print_cost(record);
@@ -172,8 +186,9 @@ int run(const scene::Scene& given, const RunOptions& options) {
       }
     }
   } catch (const NumericalStop& stop) {
-    finish("stopped", stop.what());
-    throw;
+    const NumericalStop full(std::string(stop.what()) + "; the last step was set by " + simulation.last_step());
+    finish("stopped", full.what());
+    throw full;
   }
   finish("done", "");
   return exit_done;

@@ -9,7 +9,7 @@
 namespace undex::app {
 
 struct RunOptions {
-  std::filesystem::path output;  ///< exists and may be written to
+  std::filesystem::path output;  ///< made if it does not exist
   int threads = 0;               ///< 0: the scene's choice, or all the machine has
   int verbosity = 0;             ///< -1 quiet, 0 normal, 1 every step
   std::string scene_text;        ///< the scene file as the user wrote it

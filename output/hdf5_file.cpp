@@ -12,8 +12,13 @@ namespace undex::output::hdf5 {
 
 namespace {
 
-// HDF5 prints its error stack on stderr unless told otherwise; here the reason goes into the exception.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+// HDF5 prints its error stack on stderr unless told otherwise; here the reason goes into the exception. Its clean-up at exit
+// is not wanted either: every file is closed by then, and after a failed write (full disk) it crashes on what it cannot flush.
+void silence() {
+  static const herr_t no_clean_up = H5dont_atexit();
+  static_cast<void>(no_clean_up);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
   if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;

@@ -20,6 +20,9 @@
 namespace undex::sph {
 namespace {
 
+/// What the machine (or OMP_NUM_THREADS) offers, before any fluid asks for its own number.
+const int machine_threads = omp_get_max_threads();
+
 /// A body's particles: one material, one smoothing-length policy, one range in memory.
 struct Group {
   const Body* body = nullptr;
@@ -100,7 +103,7 @@ struct Fluid::Implementation {
   Clamps clamps;
 
   explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme)) {
-    threads = s.numerics.threads > 0 ? s.numerics.threads : omp_get_num_procs();
+    threads = s.numerics.threads > 0 ? s.numerics.threads : machine_threads;
     omp_set_num_threads(threads);
     scratch.resize(threads);
     time = evaluation_time = settings.start_time;
@@ -441,8 +444,9 @@ struct Fluid::Implementation {
   }
 
   /// Predict, evaluate once, correct: kick-drift-kick with rates taken at a predicted state. A predictor by the last rates
-  /// alone makes waves grow by a relative 0.27 (omega dt)^4 a step; extrapolating them by a sixth of their last change
-  /// cancels that term (amplitude error O((omega dt)^6), stable to omega dt = 0.45 undamped), at no further evaluation.
+  /// alone makes waves grow by a relative (omega dt)^4/4 a step; extrapolating them by a sixth of their last change cancels
+  /// that term: an undamped wave still grows, by 1e-3 a step at omega dt = 0.45, but by O((omega dt)^6), at no further
+  /// evaluation.
   void step(double dt) {
     if (!evaluated) evaluate(0.0, 0.0);
     kick_and_drift(dt);
@@ -523,6 +527,12 @@ struct Fluid::Implementation {
     return *groups.back().body;
   }
 
+  const char* remedy() const {
+    if (settings.numerics.fixed_step) return "a smaller scheme.fixed_step, or none,";
+    return settings.numerics.scheme == SchemeName::monaghan ? "a smaller scheme.courant or a larger scheme.beta"
+                                                            : "a smaller scheme.courant";
+  }
+
   [[noreturn]] void stop_at_bad_value() const {
     const Particles& p = particles;
     for (std::uint32_t i = 0; i < p.size(); ++i) {
@@ -534,8 +544,9 @@ struct Fluid::Implementation {
           char text[400];
           std::snprintf(text, sizeof text,
                         "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
-                        "a smaller scheme.courant or a larger scheme.beta may hold it",
-                        steps, time, name, p.id[i], body_of(i).name.c_str(), packed[i].x, packed[i].y, packed[i].z);
+                        "%s may hold it",
+                        steps, time, name, p.id[i], body_of(i).name.c_str(), packed[i].x, packed[i].y, packed[i].z,
+                        remedy());
           throw NumericalStop(text);
         }
     }
@@ -546,10 +557,10 @@ struct Fluid::Implementation {
     char text[400];
     std::snprintf(text, sizeof text,
                   "step %ld, time %.6g s: speeds beyond all physics; the fastest is particle %u (body '%s') with %.3g m/s at "
-                  "(%.5g, %.5g, %.5g) m; a smaller scheme.courant or a larger scheme.beta may hold it",
+                  "(%.5g, %.5g, %.5g) m; %s may hold it",
                   steps, time, p.id[i], body_of(i).name.c_str(),
                   std::sqrt(fastest->vx * fastest->vx + fastest->vy * fastest->vy + fastest->vz * fastest->vz), fastest->x,
-                  fastest->y, fastest->z);
+                  fastest->y, fastest->z, remedy());
     throw NumericalStop(text);
   }
 

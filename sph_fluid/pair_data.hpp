@@ -97,7 +97,7 @@ struct FluidRates {
   double *ax, *ay, *az;     ///< acceleration [m/s^2]
   double* compression;      ///< (d rho/dt)/rho [1/s]
   double* heat;             ///< viscous heating [W/kg]
-  double* closing;          ///< largest h v_ij.x_ij/(r^2 + 0.01 h^2) of an approaching neighbour [m/s]
+  double* closing;          ///< largest speed of approach to a neighbour, as the scheme's step limit wants it [m/s]
   long long* interactions;  ///< one counter per cluster
 };
 

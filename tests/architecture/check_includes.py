@@ -12,12 +12,13 @@ import re
 import sys
 import tempfile
 
-MODULES = ["core", "materials", "sph_fluid", "fem_structure", "coupling", "scene", "output", "app"]
+MODULES = ["core", "materials", "exact", "sph_fluid", "fem_structure", "coupling", "scene", "output", "app"]
 
 # What each module may include besides its own headers: a module, or single headers of it.
 MAY_INCLUDE = {
     "core": [],
     "materials": ["core"],
+    "exact": ["core", "materials"],
     "sph_fluid": ["core", "materials"],
     "fem_structure": ["core", "materials"],
     "coupling": ["core", "materials", "sph_fluid", "fem_structure"],

@@ -40,7 +40,7 @@ struct Column {
     settings.lattice.spacing = 0.005;
     const Vec3 low(0, 0, -0.06), high(0.03, 0.02, 0);
     settings.bodies = {sph::Body{"water", Shape{Box{low, high}, {}}, materials::find_fluid("water-tait").value(), {},
-                                 Vec3(0, 0, s.water_speed), {}, {}, {}, {}, false}};
+                                 Vec3(0, 0, s.water_speed), {}, {}, {}, {}, false, {}}};
     if (!s.open) {
       sph::Wall channel;
       channel.name = "channel";

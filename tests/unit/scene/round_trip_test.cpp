@@ -24,6 +24,10 @@ origin = [0.1, 0.2, 0.3]
 jitter = 0.01
 [symmetry]
 planes = ["y"]
+[start]
+kind = "spherical"
+body = "charge"
+time = 1e-6
 [scheme]
 name = "monaghan"
 kernel = "gaussian"
