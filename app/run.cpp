@@ -85,6 +85,7 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   record.momentum_error = simulation.momentum_error();
   record.energy_error = simulation.energy().error();
   record.interface_energy_error = simulation.interface_energy_error();
+  record.interface_impulse_error = simulation.interface_impulse_error();
   record.passes = simulation.passes();
   return record;
 }
@@ -106,7 +107,9 @@ void print_cost(const output::RunRecord& record) {
                 double(record.peak_memory_bytes) / double(record.particles));
   std::printf("energy error %.2e, mass error %.1e", record.energy_error, record.mass_error);
   if (record.momentum_error == record.momentum_error) std::printf(", momentum error %.1e", record.momentum_error);
-  if (record.interface_energy_error) std::printf(", interface energy error %.2e", *record.interface_energy_error);
+  if (record.interface_energy_error)
+    std::printf(", interface energy error %.2e, impulse error %.1e", *record.interface_energy_error,
+                record.interface_impulse_error.value_or(0.0));
   std::printf("\n");
 }
 

@@ -129,6 +129,12 @@ std::optional<double> Simulation::interface_energy_error() const {
   return scale > 0 ? (l.work_given - l.work_received) / scale : 0.0;
 }
 
+std::optional<double> Simulation::interface_impulse_error() const {
+  if (!coupler_) return std::nullopt;
+  const coupling::InterfaceLedger l = coupler_->ledger();
+  return l.impulse_exchanged > 0 ? (l.impulse_given - l.impulse_received).norm() / l.impulse_exchanged : 0.0;
+}
+
 double Simulation::maximum_pressure() const { return fluid_ ? fluid_->maximum_pressure() : 0.0; }
 
 output::NamedNumbers Simulation::passes() const {

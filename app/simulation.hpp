@@ -46,6 +46,8 @@ class Simulation {
   double momentum_error() const;
   /// (work given - work received)/(work given) across the interface; nothing where there is none.
   std::optional<double> interface_energy_error() const;
+  /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
+  std::optional<double> interface_impulse_error() const;
   double maximum_pressure() const;
   /// Seconds per pass of all solvers.
   output::NamedNumbers passes() const;

@@ -57,6 +57,7 @@ Coupler::Window Coupler::advance(double end) {
   {
     const auto timer = timers_.measure("coupling");
     ledger_.impulse_given = std::accumulate(wall.impulse.begin(), wall.impulse.end(), ledger_.impulse_given);
+    for (const Vec3& impulse : wall.impulse) ledger_.impulse_exchanged += impulse.norm();
     std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
     wall_.hand_over(wall, nodal_impulse_);
     ledger_.impulse_received = std::accumulate(nodal_impulse_.begin(), nodal_impulse_.end(), ledger_.impulse_received);

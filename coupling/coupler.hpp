@@ -19,6 +19,7 @@ namespace undex::coupling {
 struct InterfaceLedger {
   Vec3 impulse_given = Vec3::Zero();     ///< by the fluid, summed over wall particles [N s]
   Vec3 impulse_received = Vec3::Zero();  ///< by the structure's nodes [N s]
+  double impulse_exchanged = 0;          ///< sum of the magnitudes over wall particles and windows [N s]
   double work_given = 0;                 ///< by the fluid on the wall as it saw it move [J]
   double work_received = 0;              ///< by the structure [J]
 };

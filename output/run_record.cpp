@@ -40,6 +40,7 @@ std::string to_json(const RunRecord& record) {
   json["momentum_error"] = record.momentum_error;
   json["energy_error"] = record.energy_error;
   if (record.interface_energy_error) json["interface_energy_error"] = *record.interface_energy_error;
+  if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;
   json["passes"] = object(record.passes);
   json["metrics"] = object(record.metrics);
   // Text from outside (a scene's name, a message) may not be UTF-8: replace rather than lose the record of the run.

@@ -29,6 +29,7 @@ struct RunRecord {
   std::int64_t peak_memory_bytes = 0;
   double mass_error = 0, momentum_error = 0, energy_error = 0;   ///< relative
   std::optional<double> interface_energy_error;                  ///< coupled runs only
+  std::optional<double> interface_impulse_error;                 ///< the same
   std::string program;                        ///< version text; left out when empty
   NamedNumbers passes;                        ///< seconds per named pass
   NamedNumbers metrics;                       ///< results of the scene's comparison

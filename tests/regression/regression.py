@@ -100,7 +100,7 @@ def run(program, cases, case, folder, *arguments, changes=()):
 def check_summary(case, summary):
     wanted = list(runs.SUMMARY_KEYS)
     if summary["cells"] and summary["particles"]:
-        wanted.append("interface_energy_error")
+        wanted += ["interface_energy_error", "interface_impulse_error"]
     found = [f"summary.json has no '{key}'" for key in wanted if key not in summary]
     if found:
         return found
@@ -110,7 +110,8 @@ def check_summary(case, summary):
         found.append(f"scene is '{summary['scene']}', not '{case.scene}'")
     if abs(summary["time_s"] / case.settings["end_time"] - 1) > 1e-9:
         found.append(f"time_s is {summary['time_s']}, the end {case.settings['end_time']}")
-    limits = {"mass_error": MASS, "momentum_error": MOMENTUM, "energy_error": ENERGY, "interface_energy_error": case.interface}
+    limits = {"mass_error": MASS, "momentum_error": MOMENTUM, "energy_error": ENERGY,
+              "interface_energy_error": case.interface, "interface_impulse_error": 1e-12}
     for key, limit in limits.items():
         value = summary.get(key)
         if value is not None and not abs(value) < limit:

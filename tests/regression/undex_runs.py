@@ -13,7 +13,7 @@ except ImportError:  # the field files are then only looked for, not opened
 # Other tests run beside these: a thread that waits must not hold a core.
 ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive")
 
-# What summary.json holds for every run; coupled runs also interface_energy_error.
+# What summary.json holds for every run; coupled runs also interface_energy_error and _impulse_error.
 SUMMARY_KEYS = [
     "scene", "status", "time_s", "steps", "wall_time_s", "cpu_time_s", "threads", "particles", "wall_particles", "cells",
     "particle_updates", "neighbour_interactions", "peak_memory_bytes", "mass_error", "momentum_error", "energy_error",

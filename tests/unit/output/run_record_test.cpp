@@ -40,6 +40,9 @@ TEST(RunRecord, CoupledRunsTellTheInterfaceError) {
   RunRecord record = sample();
   record.interface_energy_error = 2e-3;
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(record))["interface_energy_error"], 2e-3);
+  EXPECT_FALSE(nlohmann::json::parse(to_json(record)).contains("interface_impulse_error"));
+  record.interface_impulse_error = 1e-15;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(record))["interface_impulse_error"], 1e-15);
 }
 
 TEST(RunRecord, WhatDidNotHappenIsNull) {
