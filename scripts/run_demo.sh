@@ -2,7 +2,7 @@
 # From a bare Debian machine to pictures: installs what is missing, builds, runs a charge in a water-filled aluminium tube
 # (an octant of it), compares it with experiment and references, and draws it. Usage: scripts/run_demo.sh [folder]
 set -euo pipefail
-demo_spacing=0.00125  # [m] particle spacing of the demo: the finest whose run stays within 6 minutes on 2 cores
+demo_spacing=0.0015  # [m] particle spacing of the demo: the finer ones stop: the products tear, see the README of the case
 scene=cases/al_tube_fem
 
 case ${1:-} in
