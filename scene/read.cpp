@@ -59,7 +59,6 @@ void read_top(Draft& draft) {
   table.need("end_time", "give it in s, e.g. end_time = 1e-4");
   table.read("end_time", scene.end_time);
   table.read("threads", scene.fluid.numerics.threads);
-  table.read("deterministic", scene.deterministic);
 }
 
 /// Each mistake once: a material that two bodies use is read twice.

@@ -57,6 +57,8 @@ void read_scheme(const TableReader& top, Draft& draft) {
                                                                {"riemann", sph::SchemeName::riemann}});
   table.read_choice<sph::KernelName>("kernel", numerics.kernel, {{"gaussian", sph::KernelName::gaussian},
                                                                  {"wendland_c2", sph::KernelName::wendland_c2}});
+  table.read_choice<sph::Precision>("precision", numerics.precision, {{"full", sph::Precision::full},
+                                                                      {"mixed", sph::Precision::mixed}});
   // each kernel's own usual smoothing length
   numerics.eta = numerics.kernel == sph::KernelName::gaussian ? 1.2 : sph::Numerics{}.eta;
   table.read("eta", numerics.eta);

@@ -58,7 +58,6 @@ struct Scene {
   std::string name, title;
   std::filesystem::path file;             ///< where it was read from
   double end_time = 0;                    ///< [s]
-  bool deterministic = true;
   sph::Settings fluid;                    ///< without bodies where there is no fluid
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;

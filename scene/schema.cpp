@@ -28,14 +28,14 @@ std::vector<Section> make_schema() {
   return {
       {"",
        {word("name"), word("title"), between("dimension", 1, 3), above("end_time", 0, 1e3, "s"),
-        between("threads", 0, 4096), word("deterministic"), word("resolution"), word("symmetry"), word("scheme"), word("start"),
+        between("threads", 0, 4096), word("resolution"), word("symmetry"), word("scheme"), word("start"),
         word("materials"), word("bodies"), word("walls"), word("structure"), word("coupling"), word("probes"),
         word("output"), word("comparison")}},
       {"resolution",
        {length("spacing"), word("lattice"), word("fit"), position("origin"), between("jitter", 0, 0.5)}},
       {"symmetry", {word("planes")}},
       {"scheme",
-       {word("name"), word("kernel"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
+       {word("name"), word("kernel"), word("precision"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
         above("courant", 0, 1), above("fixed_step", 0, 1, "s"), between("h_low", 0.1, 1), between("h_high", 1, 20)}},
 
       {"start", {word("kind"), word("body"), above("time", 0, 1e3, "s")}},

@@ -296,6 +296,7 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   const sph::Numerics& numerics = fluid.numerics;
   writer.put("name", numerics.scheme == sph::SchemeName::monaghan ? "monaghan" : "riemann");
   writer.put("kernel", numerics.kernel == sph::KernelName::gaussian ? "gaussian" : "wendland_c2");
+  writer.put("precision", numerics.precision == sph::Precision::mixed ? "mixed" : "full");
   writer.put("eta", numerics.eta);
   writer.put("alpha", numerics.alpha);
   writer.put("beta", numerics.beta);
@@ -327,7 +328,6 @@ std::string to_toml(const Scene& scene) {
   writer.put("dimension", dimension);
   writer.put("end_time", scene.end_time);
   writer.put("threads", scene.fluid.numerics.threads);
-  writer.put("deterministic", scene.deterministic);
   put_fluid(writer, scene.fluid);
   if (scene.structure) {
     writer.set_dimension(3);

@@ -78,6 +78,11 @@ class Validator {
 
   void lattice() {
     const sph::Lattice& lattice = fluid_.lattice;
+    if (const Node* scheme = draft_.root.find("scheme");
+        scheme && fluid_.numerics.precision == sph::Precision::mixed && draft_.spacing_good && lattice.spacing < 2e-5)
+      complain(*scheme, "precision",
+               "scheme.precision = \"mixed\" needs a resolution.spacing of at least 2e-05 m: finer lengths leave the range of "
+               "single precision; take \"full\"");
     const Node* node = draft_.root.find("resolution");
     if (!node) return;
     const bool rings = lattice.type == sph::LatticeType::rings;

@@ -99,16 +99,6 @@ CellGrid CellList::view() const {
   return grid;
 }
 
-void CellList::append_clusters(int lanes, std::uint16_t group, std::vector<Cluster>& clusters) const {
-  if (order_.empty()) return;
-  const std::size_t rows = std::size_t(grid_.count[1]) * grid_.count[2];
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::uint32_t end = start_[(row + 1) * grid_.count[0]];
-    for (std::uint32_t begin = start_[row * grid_.count[0]]; begin < end; begin += lanes)
-      clusters.push_back({begin, std::uint16_t(std::min<std::uint32_t>(lanes, end - begin)), group});
-  }
-}
-
 std::size_t CellList::memory_bytes() const {
   return 4 * (start_.capacity() + key_.capacity() + order_.capacity() + histogram_.capacity());
 }

@@ -20,9 +20,6 @@ class CellList {
   const std::vector<std::uint32_t>& order() const { return order_; }
   CellGrid view() const;
 
-  /// Appends the clusters of at most `lanes` particles, none across the end of a row.
-  void append_clusters(int lanes, std::uint16_t group, std::vector<Cluster>& clusters) const;
-
   std::size_t memory_bytes() const;
 
  private:

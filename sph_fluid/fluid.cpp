@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "sph_fluid/blocks.hpp"
 #include "sph_fluid/cell_list.hpp"
 #include "sph_fluid/kernels.hpp"
 #include "sph_fluid/lattice.hpp"
@@ -68,13 +69,10 @@ struct Fluid::Implementation {
   Settings settings;
   PairLoops loops;
   Particles particles;
-  std::vector<PackedParticle> packed;
-  std::vector<PackedGradient> gradients;         // of reconstructing schemes
   std::vector<Group> groups;
   std::vector<GroupView> views;
-  std::vector<Cluster> clusters;
-  std::vector<long long> interactions;
-  std::vector<double> spare;
+  BlockOrder blocks;
+  std::vector<long long> interactions;           // per block
 
   std::vector<MovingWall> rigid;
   std::vector<MovingWall> moving;
@@ -83,10 +81,10 @@ struct Fluid::Implementation {
     int wall;             // index into `moving`, or -1 - index into `rigid`
     std::uint32_t point;
   };
-  std::vector<PackedWall> walls;                 // sorted by cell
   std::vector<WallOrigin> wall_origin;
-  std::vector<double> wall_x, wall_y, wall_z, wall_fx, wall_fy, wall_fz;
-  std::vector<Cluster> wall_clusters;
+  std::vector<double> wall_place[3];             // sorted by cell, as the next two
+  std::vector<WallRow> wall_rows;
+  std::vector<ForceRow> wall_force;
   CellList wall_cells;
   bool walls_packed = false;
 
@@ -102,7 +100,7 @@ struct Fluid::Implementation {
   long long interaction_sum = 0;
   Clamps clamps;
 
-  explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme)) {
+  explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme, s.numerics.precision)) {
     threads = s.numerics.threads > 0 ? s.numerics.threads : machine_threads;
     omp_set_num_threads(threads);
     scratch.resize(threads);
@@ -115,14 +113,7 @@ struct Fluid::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
   ~Implementation() {
-    for (Scratch& s : scratch) {
-      std::free(s.near);
-      std::free(s.variable);
-      std::free(s.near_gradient);
-      std::free(s.variable_gradient);
-      std::free(s.wall);
-      std::free(s.index);
-    }
+    for (Scratch& s : scratch) release(s);
   }
 
   void fill() {
@@ -130,9 +121,7 @@ struct Fluid::Implementation {
     std::size_t n = 0;
     for (const BodyParticles& body : bodies) n += body.position.size();
     for (const Body& body : settings.bodies) has_energy = has_energy || materials::uses_energy(body.material.law);
-    particles.resize(n, has_energy);
-    packed.resize(n);
-    if (loops.needs_gradients) gradients.resize(n);
+    particles.resize(n, has_energy, loops.needs_gradients);
     std::uint32_t at = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Body& body = settings.bodies[b];
@@ -207,19 +196,22 @@ struct Fluid::Implementation {
     }
     // A particle that crosses a symmetry plane changes places with its image.
     const struct {
-      std::vector<double>&x, &v, &a;
-      std::vector<float>& a_before;
-    } axes[3] = {{p.x, p.vx, p.ax, p.ax_before}, {p.y, p.vy, p.ay, p.ay_before}, {p.z, p.vz, p.az, p.az_before}};
+      std::vector<double>&x, &v;
+      double SumRow::*a;
+      float EarlierRates::*earlier;
+    } axes[3] = {{p.x, p.vx, &SumRow::fx, &EarlierRates::ax},
+                 {p.y, p.vy, &SumRow::fy, &EarlierRates::ay},
+                 {p.z, p.vz, &SumRow::fz, &EarlierRates::az}};
     for (int axis = 0; axis < 3; ++axis) {
       if (!settings.symmetry.axis[axis]) continue;
-      const auto& [x, v, a, a_before] = axes[axis];
+      const auto& [x, v, a, earlier] = axes[axis];
 #pragma omp parallel for schedule(static)
       for (std::size_t i = 0; i < p.size(); ++i)
         if (x[i] < 0.0) {
           x[i] = -x[i];
           v[i] = -v[i];
-          a[i] = -a[i];
-          a_before[i] = -a_before[i];
+          p.rate[i].*a = -(p.rate[i].*a);
+          p.earlier[i].*earlier = -(p.earlier[i].*earlier);
         }
     }
   }
@@ -230,19 +222,20 @@ struct Fluid::Implementation {
     long clamped = 0;
 #pragma omp parallel for schedule(static) reduction(+ : clamped)
     for (std::size_t i = 0; i < p.size(); ++i) {
-      if (has_energy) p.energy[i] += half * p.heat[i];
-      p.vx[i] += half * p.ax[i];
-      p.vy[i] += half * p.ay[i];
-      p.vz[i] += half * p.az[i];
-      clamped += std::abs(half * p.compression[i]) > 1.0;
-      p.rho[i] = advanced_density(p.rho[i], half * p.compression[i]);
+      const SumRow& rate = p.rate[i];
+      if (has_energy) p.energy[i] += half * rate.heat;
+      p.vx[i] += half * rate.fx;
+      p.vy[i] += half * rate.fy;
+      p.vz[i] += half * rate.fz;
+      clamped += std::abs(half * rate.compression) > 1.0;
+      p.rho[i] = advanced_density(p.rho[i], half * rate.compression);
     }
     clamps.density += clamped;
     // Heat counts as dissipated where no energy field takes it up.
     for (const Group& group : groups)
       if (!materials::uses_energy(group.body->material.law))
         dissipated += half * blocked_sum<double>(group.begin, group.end,
-                                                 [&](std::uint32_t i) { return p.mass[i] * p.heat[i]; });
+                                                 [&](std::uint32_t i) { return p.mass[i] * p.rate[i].heat; });
     for (std::size_t w = 0; w < moving.size(); ++w)
       for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += half * moving_force[w][k];
     wall_work += half * wall_power;
@@ -250,7 +243,6 @@ struct Fluid::Implementation {
 
   void sort() {
     const auto timer = timers.measure("sort");
-    clusters.clear();
     views.clear();
     for (std::size_t g = 0; g < groups.size(); ++g) {
       Group& group = groups[g];
@@ -260,8 +252,7 @@ struct Fluid::Implementation {
       } catch (const std::domain_error&) {
         stop_at_bad_value();
       }
-      particles.permute(group.begin, group.cells.order(), spare);
-      group.cells.append_clusters(loops.lanes, std::uint16_t(g), clusters);
+      particles.permute(group.begin, group.cells.order());
     }
   }
 
@@ -269,15 +260,19 @@ struct Fluid::Implementation {
   /// `half` times the last rates and `bend` times their last change to the half-kicked state.
   void equation_of_state(double half, double bend) {
     const auto timer = timers.measure("equation of state");
+    double h_max = 0;
     for (Group& group : groups) {
       std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
-      views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h});
+      views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h,
+                       group.body->variable_h});
+      h_max = std::max(h_max, group.h_max);
     }
+    blocks.build(views, loops.support * h_max);
   }
 
   template <class Law>
   void evaluate_group(const Law& law, Group& group, double half, double bend) {
-    const Particles& p = particles;
+    Particles& p = particles;
     const bool variable = group.body->variable_h;
     const double inverse_dimension = 1.0 / settings.dimension, cell = std::pow(group.spacing, settings.dimension);
     const double low = settings.numerics.h_low, high = settings.numerics.h_high;
@@ -286,26 +281,27 @@ struct Fluid::Implementation {
     long held = 0;
 #pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held)
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      PackedParticle& q = packed[i];
-      const double energy = has_energy ? p.energy[i] + half * p.heat[i] : 0.0;
-      q.x = p.x[i];
-      q.y = p.y[i];
-      q.z = p.z[i];
-      q.vx = p.vx[i] + half * p.ax[i] + bend * (p.ax[i] - p.ax_before[i]);
-      q.vy = p.vy[i] + half * p.ay[i] + bend * (p.ay[i] - p.ay_before[i]);
-      q.vz = p.vz[i] + half * p.az[i] + bend * (p.az[i] - p.az_before[i]);
-      q.rho = advanced_density(p.rho[i], half * p.compression[i] + bend * (p.compression[i] - p.compression_before[i]));
-      q.V = p.mass[i] / q.rho;
+      const SumRow& rate = p.rate[i];
+      const EarlierRates& earlier = p.earlier[i];
+      const double energy = has_energy ? p.energy[i] + half * rate.heat : 0.0;
+      FluidRow& q = p.predicted[i];
+      q.vx = p.vx[i] + half * rate.fx + bend * (rate.fx - earlier.ax);
+      q.vy = p.vy[i] + half * rate.fy + bend * (rate.fy - earlier.ay);
+      q.vz = p.vz[i] + half * rate.fz + bend * (rate.fz - earlier.az);
+      const double rho =
+          advanced_density(p.rho[i], half * rate.compression + bend * (rate.compression - earlier.compression));
+      q.rho = rho;
+      q.volume = p.mass[i] / rho;
       materials::PressureSound state;
       if constexpr (std::is_same_v<Law, materials::Jwl>) {
         if (burning) {
           const std::uint32_t k = p.id[i] - group.begin;
-          state = burning_state(law, group, k, q.rho, energy);
+          state = burning_state(law, group, k, rho, energy);
         } else {
-          state = law.evaluate(q.rho, energy);
+          state = law.evaluate(rho, energy);
         }
       } else {
-        state = law.evaluate(q.rho, energy);
+        state = law.evaluate(rho, energy);
       }
       q.p = state.pressure;
       q.c = state.sound_speed;
@@ -313,9 +309,8 @@ struct Fluid::Implementation {
       // that coming (energy error 5 % over the closing of a cavity instead of 0.3 %).
       if constexpr (requires { law.liquid_sound(); }) q.c = std::max(q.c, law.liquid_sound());
       q.h = group.h0;
-      q.gas = variable ? 1.0 : 0.0;
       if (variable) {
-        const double wanted = std::pow(q.V / cell, inverse_dimension);
+        const double wanted = std::pow(q.volume / cell, inverse_dimension);
         held += wanted < low || wanted > high;
         q.h *= std::clamp(wanted, low, high);
         h_max = std::max(h_max, q.h);
@@ -344,36 +339,32 @@ struct Fluid::Implementation {
   void pack_walls() {
     if (walls_packed && moving.empty()) return;
     const auto timer = timers.measure("walls");
-    std::vector<PackedWall> all;
     std::vector<WallOrigin> origin;
+    std::vector<double> place[3];
+    const auto wall_of = [&](const WallOrigin& o) -> const MovingWall& {
+      return o.wall >= 0 ? moving[o.wall] : rigid[-1 - o.wall];
+    };
     const auto add = [&](const MovingWall& wall, int index) {
       for (std::size_t k = 0; k < wall.position.size(); ++k) {
-        const Vec3 &x = wall.position[k], &v = wall.velocity[k], &n = wall.normal[k];
-        all.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2], wall.volume[k], wall.slip(k), 0.0});
         origin.push_back({index, std::uint32_t(k)});
+        for (int a = 0; a < 3; ++a) place[a].push_back(wall.position[k][a]);
       }
     };
     for (std::size_t w = 0; w < moving.size(); ++w) add(moving[w], int(w));
     for (std::size_t w = 0; w < rigid.size(); ++w) add(rigid[w], -1 - int(w));
-    const std::uint32_t n = std::uint32_t(all.size());
-    for (auto* a : {&wall_x, &wall_y, &wall_z, &wall_fx, &wall_fy, &wall_fz}) a->resize(n);
-    for (std::uint32_t k = 0; k < n; ++k) {
-      wall_x[k] = all[k].x;
-      wall_y[k] = all[k].y;
-      wall_z[k] = all[k].z;
-    }
-    wall_cells.build(wall_x.data(), wall_y.data(), wall_z.data(), 0, n, 2.0 * settings.lattice.spacing);
-    walls.resize(n);
+    const std::uint32_t n = std::uint32_t(origin.size());
+    wall_cells.build(place[0].data(), place[1].data(), place[2].data(), 0, n, 2.0 * settings.lattice.spacing);
     wall_origin.resize(n);
+    for (auto& axis : wall_place) axis.resize(n);
+    wall_rows.resize(n);
+    wall_force.resize(moving.empty() ? 0 : n);
     for (std::uint32_t k = 0; k < n; ++k) {
-      walls[k] = all[wall_cells.order()[k]];
-      wall_origin[k] = origin[wall_cells.order()[k]];
-      wall_x[k] = walls[k].x;
-      wall_y[k] = walls[k].y;
-      wall_z[k] = walls[k].z;
+      const WallOrigin& o = wall_origin[k] = origin[wall_cells.order()[k]];
+      const MovingWall& wall = wall_of(o);
+      const Vec3 &x = wall.position[o.point], &v = wall.velocity[o.point], &normal = wall.normal[o.point];
+      for (int a = 0; a < 3; ++a) wall_place[a][k] = x[a];
+      wall_rows[k] = {v[0], v[1], v[2], normal[0], normal[1], normal[2], wall.volume[o.point], wall.slip(o.point)};
     }
-    wall_clusters.clear();
-    wall_cells.append_clusters(loops.lanes, 0, wall_clusters);
     walls_packed = true;
   }
 
@@ -383,50 +374,64 @@ struct Fluid::Implementation {
     in.x = particles.x.data();
     in.y = particles.y.data();
     in.z = particles.z.data();
-    in.packed = packed.data();
+    in.fluid = particles.predicted.data();
+    in.gradient = particles.gradient.data();
     in.groups = views.data();
     in.group_count = int(views.size());
-    in.walls = walls.data();
-    in.wall_x = wall_x.data();
-    in.wall_y = wall_y.data();
-    in.wall_z = wall_z.data();
-    if (!walls.empty()) in.wall_grid = wall_cells.view();
-    in.wall_count = std::uint32_t(walls.size());
+    in.wall_x = wall_place[0].data();
+    in.wall_y = wall_place[1].data();
+    in.wall_z = wall_place[2].data();
+    in.wall = wall_rows.data();
+    in.wall_count = std::uint32_t(wall_origin.size());
+    if (in.wall_count > 0) in.wall_grid = wall_cells.view();
     for (int a = 0; a < 3; ++a) in.mirror[a] = settings.symmetry.axis[a];
     in.alpha = settings.numerics.alpha;
     in.beta = settings.numerics.beta;
-    in.gradients = gradients.data();
-    in.clusters = clusters.data();
-    in.cluster_count = std::uint32_t(clusters.size());
+    blocks.describe(in);
     in.scratch = scratch.data();
     return in;
   }
 
   void pairs(const PairInput& in) {
     const auto timer = timers.measure("pairs");
-    interactions.resize(clusters.size());
-    Particles& p = particles;
-    loops.fluid_rates(in, {p.ax.data(), p.ay.data(), p.az.data(), p.compression.data(), p.heat.data(), p.closing.data(),
-                           interactions.data()});
+    interactions.resize(blocks.block_count());
+    std::fill(wall_force.begin(), wall_force.end(), ForceRow{});
+    const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), interactions.data()};
+    loops.rates(in, out);
     for (const long long count : interactions) interaction_sum += count;
-    // Where there is an energy field, its rate is the viscous heat plus the pressure's work.
-    for (const Group& group : groups)
-      if (materials::uses_energy(group.body->material.law))
-#pragma omp parallel for schedule(static)
-        for (std::uint32_t i = group.begin; i < group.end; ++i)
-          p.heat[i] += packed[i].p / packed[i].rho * p.compression[i];
   }
 
-  void wall_forces(const PairInput& in) {
+  /// Rates per mass from the sums per volume. Where there is an energy field, its rate is the viscous heat plus the
+  /// pressure's work.
+  void finish_rates() {
+    const auto timer = timers.measure("integration");
+    Particles& p = particles;
+    for (const Group& group : groups) {
+      const bool with_energy = materials::uses_energy(group.body->material.law);
+#pragma omp parallel for schedule(static)
+      for (std::uint32_t i = group.begin; i < group.end; ++i) {
+        const FluidRow& q = p.predicted[i];
+        SumRow& rate = p.rate[i];
+        const double specific = 1.0 / q.rho;
+        rate.fx *= specific;
+        rate.fy *= specific;
+        rate.fz *= specific;
+        rate.heat *= specific;
+        if (with_energy) rate.heat += q.p * specific * rate.compression;
+      }
+    }
+  }
+
+  void wall_forces() {
     if (moving.empty()) return;
     const auto timer = timers.measure("wall forces");
-    loops.wall_forces(in, wall_clusters.data(), std::uint32_t(wall_clusters.size()),
-                      {wall_fx.data(), wall_fy.data(), wall_fz.data()});
     wall_power = 0;
-    for (std::size_t k = 0; k < walls.size(); ++k)
+    for (std::size_t k = 0; k < wall_origin.size(); ++k)
       if (wall_origin[k].wall >= 0) {
-        moving_force[wall_origin[k].wall][wall_origin[k].point] = {wall_fx[k], wall_fy[k], wall_fz[k]};
-        wall_power += wall_fx[k] * walls[k].vx + wall_fy[k] * walls[k].vy + wall_fz[k] * walls[k].vz;
+        const ForceRow& f = wall_force[k];
+        const WallRow& w = wall_rows[k];
+        moving_force[wall_origin[k].wall][wall_origin[k].point] = {f.fx, f.fy, f.fz};
+        wall_power += f.fx * w.vx + f.fy * w.vy + f.fz * w.vz;
       }
   }
 
@@ -435,11 +440,11 @@ struct Fluid::Implementation {
     omp_set_num_threads(threads);  // another fluid of this process may have asked for another number
     sort();
     equation_of_state(half, bend);
-    particles.remember_rates();
+    particles.turn_rates();
     pack_walls();
-    const PairInput in = pair_input();
-    pairs(in);
-    wall_forces(in);
+    pairs(pair_input());
+    finish_rates();
+    wall_forces();
     evaluated = true;
   }
 
@@ -484,12 +489,13 @@ struct Fluid::Implementation {
       bool ok = true;
 #pragma omp for schedule(static)
       for (std::uint32_t i = 0; i < particles.size(); ++i) {
-        const PackedParticle& q = packed[i];
-        const double a2 = particles.ax[i] * particles.ax[i] + particles.ay[i] * particles.ay[i] + particles.az[i] * particles.az[i];
-        const double signal = q.c + alpha * q.c + beta * particles.closing[i];
+        const FluidRow& q = particles.predicted[i];
+        const SumRow& rate = particles.rate[i];
+        const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
+        const double signal = q.c + alpha * q.c + beta * rate.closing;
         const double courant = numerics.courant * q.h / signal;
         const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
-        const double squeeze = 0.2 / (std::abs(particles.compression[i]) + 1e-300);
+        const double squeeze = 0.2 / (std::abs(rate.compression) + 1e-300);
         ok = ok && std::isfinite(a2) && signal < fastest;
         const double least = std::min({courant, push, squeeze});
         if (least < best) {
@@ -538,29 +544,30 @@ struct Fluid::Implementation {
     for (std::uint32_t i = 0; i < p.size(); ++i) {
       const std::pair<const char*, double> values[] = {
           {"position", p.x[i] + p.y[i] + p.z[i]}, {"velocity", p.vx[i] + p.vy[i] + p.vz[i]}, {"density", p.rho[i]},
-          {"acceleration", p.ax[i] + p.ay[i] + p.az[i]}, {"pressure", packed[i].p}, {"sound speed", packed[i].c}};
+          {"acceleration", p.rate[i].fx + p.rate[i].fy + p.rate[i].fz}, {"pressure", p.predicted[i].p},
+          {"sound speed", p.predicted[i].c}};
       for (const auto& [name, value] : values)
         if (!std::isfinite(value)) {
           char text[400];
           std::snprintf(text, sizeof text,
                         "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
                         "%s may hold it",
-                        steps, time, name, p.id[i], body_of(i).name.c_str(), packed[i].x, packed[i].y, packed[i].z,
+                        steps, time, name, p.id[i], body_of(i).name.c_str(), p.x[i], p.y[i], p.z[i],
                         remedy());
           throw NumericalStop(text);
         }
     }
-    const auto fastest = std::max_element(packed.begin(), packed.end(), [](const PackedParticle& a, const PackedParticle& b) {
-      return a.vx * a.vx + a.vy * a.vy + a.vz * a.vz < b.vx * b.vx + b.vy * b.vy + b.vz * b.vz;
-    });
-    const std::uint32_t i = std::uint32_t(fastest - packed.begin());
+    const auto speed = [&](std::uint32_t i) {
+      return std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+    };
+    std::uint32_t i = 0;
+    for (std::uint32_t k = 0; k < p.size(); ++k)
+      if (speed(k) > speed(i)) i = k;
     char text[400];
     std::snprintf(text, sizeof text,
                   "step %ld, time %.6g s: speeds beyond all physics; the fastest is particle %u (body '%s') with %.3g m/s at "
                   "(%.5g, %.5g, %.5g) m; %s may hold it",
-                  steps, time, p.id[i], body_of(i).name.c_str(),
-                  std::sqrt(fastest->vx * fastest->vx + fastest->vy * fastest->vy + fastest->vz * fastest->vz), fastest->x,
-                  fastest->y, fastest->z, remedy());
+                  steps, time, p.id[i], body_of(i).name.c_str(), speed(i), p.x[i], p.y[i], p.z[i], remedy());
     throw NumericalStop(text);
   }
 
@@ -626,9 +633,8 @@ struct Fluid::Implementation {
             for (int ix = first[0]; ix <= last[0]; ++ix) {
               const std::size_t cell = (std::size_t(iz) * grid.count[1] + iy) * grid.count[0] + ix;
               for (std::uint32_t i = grid.start[cell]; i < grid.start[cell + 1]; ++i) {
-                const PackedParticle& q = packed[i];
-                const double r = (Vec3(q.x, q.y, q.z) - at).norm();
-                if (r < radius_over_h * q.h) visit(i, r, group, image);
+                const double r = (Vec3(particles.x[i], particles.y[i], particles.z[i]) - at).norm();
+                if (r < radius_over_h * particles.predicted[i].h) visit(i, r, group, image);
               }
             }
       }
@@ -641,8 +647,8 @@ struct Fluid::Implementation {
     PointValues values;
     double weight = 0;
     around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
-      const PackedParticle& q = packed[i];
-      const double w = q.V * value<WendlandC2>(r, shrink * q.h, settings.dimension);
+      const FluidRow& q = particles.predicted[i];
+      const double w = q.volume * value<WendlandC2>(r, shrink * q.h, settings.dimension);
       weight += w;
       values.pressure += w * q.p;
       values.density += w * q.rho;
@@ -678,13 +684,13 @@ struct Fluid::Implementation {
         out[3 * i + 2] = place ? p.z[i] : p.vz[i];
       }
     } else if (name == "pressure") {
-      scalar([&](std::size_t i) { return packed[i].p; });
+      scalar([&](std::size_t i) { return p.predicted[i].p; });
     } else if (name == "density") {
       scalar([&](std::size_t i) { return p.rho[i]; });
     } else if (name == "sound_speed") {
-      scalar([&](std::size_t i) { return packed[i].c; });
+      scalar([&](std::size_t i) { return p.predicted[i].c; });
     } else if (name == "smoothing_length") {
-      scalar([&](std::size_t i) { return packed[i].h; });
+      scalar([&](std::size_t i) { return p.predicted[i].h; });
     } else if (name == "mass") {
       scalar([&](std::size_t i) { return p.mass[i]; });
     } else if (name == "id") {
@@ -733,10 +739,10 @@ std::vector<std::size_t> Fluid::particles_by_body() const {
 }
 std::size_t Fluid::memory_bytes() const {
   const Implementation& s = *self_;
-  std::size_t bytes = s.particles.memory_bytes() + s.packed.capacity() * sizeof(PackedParticle) +
-                      s.gradients.capacity() * sizeof(PackedGradient) +
-                      s.clusters.capacity() * (sizeof(Cluster) + sizeof(long long)) + s.spare.capacity() * sizeof(double) +
-                      s.walls.capacity() * (sizeof(PackedWall) + 6 * sizeof(double) + 8);
+  std::size_t bytes = s.particles.memory_bytes() + s.blocks.memory_bytes() +
+                      s.interactions.capacity() * sizeof(long long) +
+                      s.wall_origin.capacity() * (sizeof(Implementation::WallOrigin) + 3 * sizeof(double)) +
+                      s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow);
   for (const Group& group : s.groups) bytes += group.cells.memory_bytes();
   return bytes + s.wall_cells.memory_bytes();
 }
@@ -757,7 +763,7 @@ void Fluid::step(double dt) { self_->step(dt); }
 Ledger Fluid::ledger() const { return self_->ledger(); }
 PointValues Fluid::at(const Vec3& point) const { return self_->at(point); }
 double Fluid::maximum_pressure() const {
-  return self_->largest([&](std::size_t i) { return self_->packed[i].p; });
+  return self_->largest([&](std::size_t i) { return self_->particles.predicted[i].p; });
 }
 double Fluid::maximum_speed() const {
   const Particles& p = self_->particles;

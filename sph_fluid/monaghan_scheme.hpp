@@ -9,74 +9,55 @@
 // A wall's dummy particle shows i its own state, mirrored (wall_mirror.hpp).
 #pragma once
 
-#include "sph_fluid/fluid_lanes.hpp"
-#include "sph_fluid/wall_lanes.hpp"
+#include "sph_fluid/fluid_state.hpp"
 #include "sph_fluid/wall_mirror.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
+template <class T>
 struct Monaghan {
-  using Lanes = FluidLanes;
-  using Sums = FluidSums;
-  static constexpr bool needs_gradients = false;
-  double alpha, beta;
+  using V = Vec<T>;
+  using State = FluidState<V>;
+  using Wall = WallState<V>;
+  using Sums = FluidSums<V>;
+  static constexpr bool symmetric = true;
+  T alpha, beta;
 
-  explicit Monaghan(const PairInput& in) : alpha(in.alpha), beta(in.beta) {}
+  explicit Monaghan(const PairInput& in) : alpha(T(in.alpha)), beta(T(in.beta)) {}
 
-  UNDEX_INLINE static Lanes load(const PackedParticle* first, const PackedGradient*, int count) {
-    return load_fluid(first, count);
+  /// rho_i rho_j Pi of eq. 6 [Pa], and books the closing speed. `sound` and `density` are the SUMS over i and j;
+  /// vr = v_ij . x_ij < 0 on approach.
+  UNDEX_INLINE V viscosity(V vr, const Pair<V>& pair, V sound, V density, V product, V& closing) const {
+    const V reach = pair.r2 + T(0.01) * (pair.h * pair.h);
+    const V inverse = reciprocal(reach * density);
+    const V mu = pair.h * minimum(vr, V{}) * (inverse * density);
+    closing = keep(pair.near, -mu);
+    return product * mu * (2 * beta * mu - alpha * sound) * (inverse * reach);
   }
 
-  /// Pi of eq. 6, and books the closing speed. `sound` and `density` are the SUMS over i and j; vr = v_ij . x_ij < 0 on
-  /// approach.
-  UNDEX_INLINE Vec viscosity(Vec vr, Vec r2, Vec h, Vec sound, Vec density, Mask near, Vec& closing) const {
-    const Vec reach = r2 + 0.01 * (h * h);
-    const Vec inverse = reciprocal(reach * density);
-    const Vec mu = h * minimum(vr, Vec{}) * (inverse * density);
-    closing = maximum(closing, keep(near, -mu));
-    return mu * (2.0 * beta * mu - alpha * sound) * (inverse * reach);
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
+    V closing;
+    const V viscous = viscosity(vr, pair, i.c + j.c, i.rho + j.rho, i.rho * j.rho, closing);
+    add_force(pair.F * (i.p + j.p + viscous), pair, i.volume, j.volume, si, sj);
+    const V D = pair.F * vr, q = T(0.5) * viscous * D;
+    si.compression += j.volume * D;
+    sj.compression += i.volume * D;
+    si.heat += j.volume * q;
+    sj.heat += i.volume * q;
+    si.closing = maximum(si.closing, closing);
+    sj.closing = maximum(sj.closing, closing);
   }
 
-  UNDEX_INLINE void pair(const Lanes& i, const PackedParticle& j, const PackedGradient*, Vec dx, Vec dy, Vec dz, Vec r2,
-                         Vec h, Vec F, Mask near, Sums& sums) const {
-    const Vec vr = (i.vx - j.vx) * dx + (i.vy - j.vy) * dy + (i.vz - j.vz) * dz;
-    const Vec Pi = viscosity(vr, r2, h, i.c + j.c, i.rho + j.rho, near, sums.closing);
-    const Vec FV = F * j.V;
-    const Vec viscous = Pi * j.rho;
-    const Vec G = FV * ((i.p + j.p) * i.inverse_rho + viscous);
-    sums.ax -= G * dx;
-    sums.ay -= G * dy;
-    sums.az -= G * dz;
-    sums.compression += FV * vr;
-    sums.heat += 0.5 * FV * viscous * vr;
-  }
-
-  UNDEX_INLINE void wall(const Lanes& i, const PackedWall& w, Vec dx, Vec dy, Vec dz, Vec r2, Vec h, Vec F, Mask near,
-                         Sums& sums) const {
-    const Mirrored m = mirrored(i.vx - w.vx, i.vy - w.vy, i.vz - w.vz, dx, dy, dz, w.nx, w.ny, w.nz, w.slip);
-    const Vec Pi = viscosity(m.approach, r2, h, 2.0 * i.c, 2.0 * i.rho, near, sums.closing);
-    const Vec FV = F * w.V;
-    const Vec viscous = Pi * i.rho;
-    const Vec G = FV * (2.0 * i.p * i.inverse_rho + viscous);
-    sums.ax -= G * m.ex;
-    sums.ay -= G * m.ey;
-    sums.az -= G * m.ez;
-    sums.compression += FV * m.approach;
-    sums.heat += 0.5 * FV * viscous * m.approach;
-  }
-
-  /// The force of fluid particle j on the wall particles in the lanes: minus what wall() gives j, times its mass.
-  /// d = x_j - x_wall, as seen from the fluid particle.
-  UNDEX_INLINE void force(const WallLanes& w, const PackedParticle& j, Vec dx, Vec dy, Vec dz, Vec r2, Vec F, Mask near,
-                          WallSums& sums) const {
-    const Mirrored m = mirrored(j.vx - w.vx, j.vy - w.vy, j.vz - w.vz, dx, dy, dz, w.nx, w.ny, w.nz, w.slip);
-    Vec unused{};
-    const Vec Pi =
-        viscosity(m.approach, r2, broadcast(j.h), broadcast(2.0 * j.c), broadcast(2.0 * j.rho), near, unused);
-    const Vec G = F * w.V * (2.0 * j.p / j.rho + Pi * j.rho) * (j.rho * j.V);
-    sums.fx += G * m.ex;
-    sums.fy += G * m.ey;
-    sums.fz += G * m.ez;
+  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+    const Mirrored<V> m = mirrored(i, w, pair);
+    V closing;
+    const V viscous = viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
+    add_wall_force(pair.F * (2 * i.p + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V D = pair.F * m.approach * w.volume;
+    si.compression += D;
+    si.heat += T(0.5) * viscous * D;
+    si.closing = maximum(si.closing, closing);
   }
 };
 

@@ -2,35 +2,50 @@
 // several times, for several instruction sets, and only this header and kernels.hpp are shared with the rest.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace undex::sph {
 
-/// What a pair needs to know of a particle, in one piece of memory. Also the form in which a mirrored image is made.
-struct alignas(32) PackedParticle {
-  double x, y, z;       ///< [m]
-  double vx, vy, vz;    ///< velocity predicted for this evaluation [m/s]
-  double p, rho, c, V;  ///< pressure [Pa], density, sound speed, volume m/rho [m^3]
-  double h;             ///< smoothing length [m]
-  double gas;           ///< 1: bubble gas or detonation products, 0: liquid
+/// Particles of a cluster, the unit of work of a pair loop. Every one of them is paired with all candidates of the cluster.
+inline constexpr int cluster_size = 8;
+
+// What a pair reads and what it gives lies in rows, one a particle: a list of candidates is made of them by transposing.
+
+/// What a pair reads of a fluid particle beside its place.
+struct alignas(64) FluidRow {
+  double vx, vy, vz;  ///< velocity predicted for this evaluation [m/s]
+  double p;           ///< [Pa]
+  double volume;      ///< m/rho [m^3]
+  double rho, c;      ///< density [kg/m^3], sound speed [m/s]
+  double h;           ///< smoothing length [m]
 };
 
 /// Limited reconstruction's raw material: gradients of velocity (its symmetric part, all that the component along a pair
 /// needs: xx, yy, zz, xy, yz, zx) [1/s] and of pressure [Pa/m]. Single precision: they only shape a correction.
-struct alignas(16) PackedGradient {
-  float strain[6];
-  float pressure[3];
-  float spare[3];
+struct GradientRow {
+  float strain[6], pressure[3];
 };
 
-/// A dummy particle of a wall.
-struct alignas(32) PackedWall {
-  double x, y, z;
-  double vx, vy, vz;
-  double nx, ny, nz;   ///< unit normal, away from the fluid; behind an edge, the edge's direction
-  double V;            ///< [m^3]
-  double slip;         ///< 1: free slip; 0: no slip, or a free-slip corner (nothing slips there); -1: a free-slip edge
-  double spare;
+/// What a pair reads of a wall's dummy particle.
+struct alignas(64) WallRow {
+  double vx, vy, vz;  ///< [m/s]
+  double nx, ny, nz;  ///< unit normal, away from the fluid; behind an edge, the edge's direction
+  double volume;      ///< [m^3]
+  double slip;        ///< 1: free slip; 0: no slip, or a free-slip corner (nothing slips there); -1: a free-slip edge
+};
+
+/// What the pairs add up for a fluid particle.
+struct SumRow {
+  double fx, fy, fz;   ///< acceleration times density [N/m^3]
+  double compression;  ///< (d rho/dt)/rho [1/s]
+  double heat;         ///< viscous heating times density [W/m^3]
+  double closing;      ///< a maximum: closing speed to a neighbour, as the scheme's step limit wants it [m/s]
+};
+
+/// What they add up for a wall's particle.
+struct ForceRow {
+  double fx, fy, fz;   ///< [N]
 };
 
 /// Cells over one range of particles. Rows run along x; a row's cells are a quarter as long as wide, so that the run of
@@ -49,61 +64,62 @@ struct GroupView {
   CellGrid grid;
   double h_max;             ///< [m]
   bool variable_h;
+  bool gas;                 ///< bubble gas or detonation products, not liquid
 };
 
-/// Up to `lanes` consecutive particles of one row of cells: the unit of work of a pair loop.
+/// Up to cluster_size consecutive particles of one row of cells.
 struct Cluster {
   std::uint32_t begin;
   std::uint16_t count;
   std::uint16_t group;
 };
 
-/// Buffers of one thread, grown on demand by grow().
-struct Scratch {
-  PackedParticle* near = nullptr;      ///< candidates with the same constant h
-  PackedParticle* variable = nullptr;  ///< candidates of pairs whose h varies
-  PackedGradient* near_gradient = nullptr;      ///< theirs, where the scheme wants them; same capacities
-  PackedGradient* variable_gradient = nullptr;
-  PackedWall* wall = nullptr;
-  std::uint32_t* index = nullptr;
-  std::uint32_t near_capacity = 0, variable_capacity = 0, wall_capacity = 0, index_capacity = 0;
+/// Clusters of neighbouring rows (a column along x) that one thread works on at a time; see blocks.hpp.
+struct Block {
+  std::uint32_t begin, end;  ///< clusters
+  int iy, iz;                ///< its place among the columns
 };
-void grow_near(Scratch&, std::uint32_t needed);
-void grow_variable(Scratch&, std::uint32_t needed);
-void grow_wall(Scratch&, std::uint32_t needed);
-void grow_index(Scratch&, std::uint32_t needed);
+
+/// Buffers of one thread for the candidates of a cluster, grown on demand.
+struct Scratch {
+  void* blocks = nullptr;            ///< what the pairs read of them
+  std::size_t bytes = 0;
+  std::uint32_t* index = nullptr;    ///< which particles they are
+  double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
+  std::uint32_t capacity = 0;        ///< of the last four
+};
+/// Makes room, keeping what is there.
+void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
+void release(Scratch&);
 
 /// Everything that the loop over pairs reads.
 struct PairInput {
   int dimension;
-  const double *x, *y, *z;             ///< positions again, for the search
-  const PackedParticle* packed;
+  const double *x, *y, *z;
+  const FluidRow* fluid;
+  GradientRow* gradient;               ///< null where the scheme has no use for them; one more than particles, for reading over
   const GroupView* groups;
   int group_count;
-  const PackedWall* walls;             ///< sorted by cell of wall_grid
   const double *wall_x, *wall_y, *wall_z;
+  const WallRow* wall;                 ///< sorted by cell of wall_grid
   CellGrid wall_grid;
   std::uint32_t wall_count;
   bool mirror[3];                      ///< symmetry planes through the origin
   double alpha, beta;                  ///< Monaghan's viscosity
-  PackedGradient* gradients;           ///< per particle; null where the scheme has no use for them
-  const Cluster* clusters;
-  std::uint32_t cluster_count;
+  const Cluster* clusters;             ///< sorted by block
+  const Block* blocks;                 ///< in the order of work
+  std::uint32_t block_count;
+  int columns_y, columns_z;            ///< block columns
+  const std::uint32_t* rank;           ///< rank[iz*columns_y + iy]: place in `blocks`, or block_count where there is none
+  unsigned char* finished;             ///< one flag per block, for the loops' own use
   Scratch* scratch;                    ///< one per thread
 };
 
-/// Rates of the fluid, per particle.
-struct FluidRates {
-  double *ax, *ay, *az;     ///< acceleration [m/s^2]
-  double* compression;      ///< (d rho/dt)/rho [1/s]
-  double* heat;             ///< viscous heating [W/kg]
-  double* closing;          ///< largest speed of approach to a neighbour, as the scheme's step limit wants it [m/s]
-  long long* interactions;  ///< one counter per cluster
-};
-
-/// Forces on wall particles, in the order of PairInput::walls.
-struct WallForces {
-  double *fx, *fy, *fz;     ///< [N]
+/// Sums of the loop, zero before it.
+struct PairOutput {
+  SumRow* fluid;
+  ForceRow* wall;           ///< null where nobody asks for it
+  long long* interactions;  ///< true neighbours met (directed), one counter per block
 };
 
 }  // namespace undex::sph

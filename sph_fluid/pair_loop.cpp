@@ -1,7 +1,9 @@
-// The loop over pairs: clusters of particles in SIMD lanes against packed candidates. Every cluster sums over all of its
-// own neighbours in an order that depends on the sorting alone, so results do not depend on the number of threads.
+// The loop over pairs: the particles of a cluster, one after the other, against vectors of candidates. What a pair gives is
+// computed once and added to both sides. Blocks of clusters are worked on in an order in which a block waits for those of
+// its neighbours that come before it: sums do not depend on the number of threads.
 // Compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
 #include <omp.h>
+#include <sched.h>
 
 #include "sph_fluid/candidates.hpp"
 #include "sph_fluid/kernels.hpp"
@@ -19,230 +21,293 @@ double power(double a, int n) {
   return result;
 }
 
-/// F(r, h) of the kernel in the lanes; h one number for all pairs.
-template <class Kernel>
+/// F(r, h) of the kernel; h one number for all pairs.
+template <class Kernel, class T>
 struct ConstantH {
-  Vec h;
-  double inverse_h, scale, reach2;
+  using V = Vec<T>;
+  T h_, inverse_h, scale, reach2;
 
-  ConstantH(double h_, double norm, int dimension)
-      : h(broadcast(h_)),
-        inverse_h(1.0 / h_),
-        scale(norm / power(h_, dimension + 2)),
-        reach2(Kernel::support * Kernel::support * h_ * h_) {}
-  UNDEX_INLINE Vec h_of(const PackedParticle&) const { return h; }
-  UNDEX_INLINE Mask near(Vec r2, Vec) const { return r2 < reach2; }
-  UNDEX_INLINE Vec gradient(Vec r2, Vec, Mask near) const {
+  ConstantH(double h, int dimension)
+      : h_(T(h)),
+        inverse_h(T(1.0 / h)),
+        scale(T(Kernel::norm(dimension) / power(h, dimension + 2))),
+        reach2(T(Kernel::support * Kernel::support * h * h)) {}
+  UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
+    pair.h = broadcast(h_);
+    pair.near = pair.r2 < reach2;
     if constexpr (Kernel::needs_root) {
-      const Vec s2 = r2 + 1e-30;
-      return keep(near, scale * Kernel::gradient_of_root(s2 * reciprocal_sqrt(s2) * inverse_h));
+      const V s2 = pair.r2 + T(1e-30);
+      pair.F = keep(pair.near, scale * Kernel::template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
     } else {
-      return keep(near, scale * Kernel::gradient(r2 * (inverse_h * inverse_h)));
+      pair.F = keep(pair.near, scale * Kernel::template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
     }
   }
 };
 
 /// The same with h_ij = (h_i + h_j)/2, a number per pair.
-template <class Kernel>
+template <class Kernel, class T>
 struct PairH {
-  Vec h_i;
-  double norm;
+  using V = Vec<T>;
+  T h_i, norm;
   int dimension;
 
-  UNDEX_INLINE Vec h_of(const PackedParticle& j) const { return 0.5 * (h_i + j.h); }
-  UNDEX_INLINE Mask near(Vec r2, Vec h) const { return r2 < Kernel::support * Kernel::support * (h * h); }
-  UNDEX_INLINE Vec gradient(Vec r2, Vec h, Mask near) const {
-    const Vec inverse_h = reciprocal(h);
-    Vec scale = norm * (inverse_h * inverse_h * inverse_h);
+  PairH(double h, int d) : h_i(T(h)), norm(T(Kernel::norm(d))), dimension(d) {}
+  UNDEX_INLINE void evaluate(Pair<V>& pair, const T* h_j) const {
+    constexpr T support = T(Kernel::support);
+    const V h = T(0.5) * (h_i + load(h_j));
+    pair.h = h;
+    pair.near = pair.r2 < support * support * (h * h);
+    const V inverse_h = reciprocal(h);
+    V scale = norm * (inverse_h * inverse_h * inverse_h);
     if (dimension > 1) scale *= inverse_h;
     if (dimension > 2) scale *= inverse_h;
     if constexpr (Kernel::needs_root) {
-      const Vec s2 = r2 + 1e-30;
-      return keep(near, scale * Kernel::gradient_of_root(minimum(s2 * reciprocal_sqrt(s2) * inverse_h,
-                                                                 broadcast(Kernel::support))));
+      const V s2 = pair.r2 + T(1e-30);
+      pair.F = keep(pair.near, scale * Kernel::template gradient_of_root<T>(minimum(
+                                           s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
     } else {
-      return keep(near, scale * Kernel::gradient(minimum(r2 * (inverse_h * inverse_h), broadcast(9.0))));
+      pair.F = keep(pair.near, scale * Kernel::template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h),
+                                                                            broadcast(support * support))));
     }
   }
 };
 
-template <class Scheme, class Smoothing>
-UNDEX_INLINE void pairs(const Scheme& scheme, const Smoothing& smoothing, const typename Scheme::Lanes& i,
-                        const PackedParticle* candidates, const PackedGradient* gradients, std::uint32_t count,
-                        typename Scheme::Sums& sums, Mask& seen) {
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const PackedParticle& j = candidates[k];
-    const Vec dx = i.x - j.x, dy = i.y - j.y, dz = i.z - j.z;
-    const Vec r2 = dx * dx + dy * dy + dz * dz;
-    const Vec h = smoothing.h_of(j);
-    const Mask near = smoothing.near(r2, h);
-    seen -= near;
-    scheme.pair(i, j, gradients + k, dx, dy, dz, r2, h, smoothing.gradient(r2, h, near), near, sums);
-  }
-}
+/// What the pairs of one loop have in common.
+struct PairKind {
+  bool constant_h, gas;
+};
 
-template <class Scheme, class Smoothing>
-UNDEX_INLINE void walls(const Scheme& scheme, const Smoothing& smoothing, const typename Scheme::Lanes& i,
-                        const PackedWall* candidates, std::uint32_t count, typename Scheme::Sums& sums, Mask& seen) {
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const PackedWall& w = candidates[k];
-    const Vec dx = i.x - w.x, dy = i.y - w.y, dz = i.z - w.z;
-    const Vec r2 = dx * dx + dy * dy + dz * dz;
-    const Mask near = smoothing.near(r2, i.h);
-    seen -= near;
-    scheme.wall(i, w, dx, dy, dz, r2, i.h, smoothing.gradient(r2, i.h, near), near, sums);
-  }
-}
+/// One pass over one cluster: its candidates, the pairs with them, and the sums.
+template <class Kernel, template <class> class Scheme, class T>
+class ClusterWork {
+  using Pass = Scheme<T>;
+  using V = Vec<T>;
+  using State = typename Pass::State;
+  using Sums = typename Pass::Sums;
+  using Wall = typename Pass::Wall;
+  static constexpr int W = lanes<T>;
+  using List = CandidateList<T, State::with_gradients, Pass::symmetric ? Sums::count : 0>;
 
-/// How far a cluster whose largest smoothing length is h_cluster must look in a group.
-template <class Kernel>
-double reach_of(double h_cluster, const GroupView& own, const GroupView& other) {
-  const bool constant = !own.variable_h && !other.variable_h;
-  return Kernel::support * (constant && own.h_max == other.h_max ? own.h_max : 0.5 * (h_cluster + other.h_max));
-}
-
-/// Fills scratch with the candidates of one cluster. Pairs of constant and equal h go to `near`, others to `variable`.
-template <class Kernel, bool with_gradients>
-void gather(const PairInput& in, const Cluster& cluster, Scratch& scratch, std::uint32_t& near_count,
-            std::uint32_t& variable_count, std::uint32_t& wall_count) {
-  const GroupView& own = in.groups[cluster.group];
-  const Box3 box = box_of(in.x, in.y, in.z, cluster.begin, cluster.count);
-  double h_cluster = own.h_max;
-  if (own.variable_h) {
-    h_cluster = 0.0;
-    for (int l = 0; l < cluster.count; ++l) {
-      const double h = in.packed[cluster.begin + l].h;
-      h_cluster = h > h_cluster ? h : h_cluster;
+ public:
+  ClusterWork(const PairInput& in, const Pass& pass, const Cluster& cluster, Scratch& scratch, const PairOutput& out)
+      : in_(in), pass_(pass), cluster_(cluster), own_(in.groups[cluster.group]), list_(scratch), out_(out) {
+    box_ = box_of(in.x, in.y, in.z, cluster.begin, cluster.count);
+    for (int a = 0; a < 3; ++a) origin_[a] = 0.5 * (box_.low[a] + box_.high[a]);
+    h_cluster_ = own_.h_max;
+    if (own_.variable_h) {
+      h_cluster_ = 0.0;
+      for (int l = 0; l < cluster.count; ++l) h_cluster_ = h_of(l) > h_cluster_ ? h_of(l) : h_cluster_;
     }
   }
-  near_count = variable_count = wall_count = 0;
-  for (int g = 0; g < in.group_count; ++g) {
-    const GroupView& group = in.groups[g];
-    const double reach = reach_of<Kernel>(h_cluster, own, group);
-    const bool constant = !own.variable_h && !group.variable_h && own.h_max == group.h_max;
-    for_each_image(in.mirror, box, reach, [&](double sx, double sy, double sz, const Box3& seen_box) {
-      const std::uint32_t found = scan_grid(group.grid, in.x, in.y, in.z, seen_box, reach, scratch);
-      if (found == 0) return;
-      std::uint32_t& count = constant ? near_count : variable_count;
-      if (constant && count + found > scratch.near_capacity) grow_near(scratch, count + found);
-      if (!constant && count + found > scratch.variable_capacity) grow_variable(scratch, count + found);
-      copy_candidates(in.packed, scratch.index, found, sx, sy, sz,
-                      (constant ? scratch.near : scratch.variable) + count);
-      if constexpr (with_gradients)
-        copy_candidates(in.gradients, scratch.index, found, sx, sy, sz,
-                        (constant ? scratch.near_gradient : scratch.variable_gradient) + count);
-      count += found;
-    });
+
+  /// Returns the number of true neighbours met, directed.
+  long long run() {
+    for (int g = 0; g < in_.group_count; ++g) with_group(g);
+    if (in_.wall_count > 0) with_walls();
+    store_sums();
+    long long met = -std::int64_t(cluster_.count);  // a particle is not its own neighbour
+    for (int l = 0; l < W; ++l) met += std::int64_t(seen_[l]) + 2 * std::int64_t(seen_twice_[l]);
+    return met;
   }
-  if (in.wall_count > 0) {
-    const double reach = Kernel::support * h_cluster;
-    for_each_image(in.mirror, box, reach, [&](double sx, double sy, double sz, const Box3& seen_box) {
-      const std::uint32_t found = scan_grid(in.wall_grid, in.wall_x, in.wall_y, in.wall_z, seen_box, reach, scratch);
-      if (found == 0) return;
-      if (wall_count + found > scratch.wall_capacity) grow_wall(scratch, wall_count + found);
-      copy_candidates(in.walls, scratch.index, found, sx, sy, sz, scratch.wall + wall_count);
-      wall_count += found;
+
+ private:
+  double h_of(int l) const { return own_.variable_h ? in_.fluid[cluster_.begin + l].h : own_.h_max; }
+
+  void with_group(int g) {
+    const GroupView& other = in_.groups[g];
+    PairKind kind{};
+    kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
+    kind.gas = own_.gas || other.gas;
+    // A pair's h is the mean of two.
+    const double reach = Kernel::support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
+    // First what is seen from this side only: images, and the cluster itself.
+    list_.size = 0;
+    for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
+      const std::uint32_t begin = list_.size;
+      if (image > 0 || !Pass::symmetric)
+        scan_grid(other.grid, in_.x, in_.y, in_.z, box, reach, 0, list_);
+      else if (g == cluster_.group)
+        for (std::uint32_t k = cluster_.begin; k < cluster_.begin + cluster_.count; ++k)
+          list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
+      fill(begin, image, reach);
     });
+    pairs_with<State, Sums, false>(kind);
+    if (!Pass::symmetric || g < cluster_.group) return;
+    // Then every particle that comes after the cluster: both sides at once.
+    list_.size = 0;
+    scan_grid(other.grid, in_.x, in_.y, in_.z, box_, reach, cluster_.begin + cluster_.count, list_);
+    const std::uint32_t real = list_.size;
+    fill(0, 0, reach);
+    pairs_with<State, Sums, true>(kind);
+    list_.template hand_out<Sums>(real, out_.fluid, 0);
   }
-}
 
-template <class Kernel, class Scheme>
-void cluster_rates(const PairInput& in, const Scheme& scheme, const Cluster& cluster, Scratch& scratch,
-                   const FluidRates& out, long long& interactions) {
-  std::uint32_t near_count, variable_count, wall_count;
-  gather<Kernel, Scheme::needs_gradients>(in, cluster, scratch, near_count, variable_count, wall_count);
-  const GroupView& own = in.groups[cluster.group];
-  const double norm = Kernel::norm(in.dimension);
-  const typename Scheme::Lanes i = Scheme::load(in.packed + cluster.begin, in.gradients + cluster.begin, cluster.count);
-  const PairH<Kernel> pair_h{i.h, norm, in.dimension};
-  typename Scheme::Sums sums;
-  Mask seen{};
-  if (near_count > 0)
-    pairs(scheme, ConstantH<Kernel>(own.h_max, norm, in.dimension), i, scratch.near, scratch.near_gradient, near_count,
-          sums, seen);
-  if (variable_count > 0)
-    pairs(scheme, pair_h, i, scratch.variable, scratch.variable_gradient, variable_count, sums, seen);
-  if (wall_count > 0) walls(scheme, pair_h, i, scratch.wall, wall_count, sums, seen);
-  store_fluid(sums, cluster.begin, cluster.count, out);
-  interactions = -std::int64_t(cluster.count);  // a particle is not its own neighbour
-  for (int l = 0; l < cluster.count; ++l) interactions += seen[l];
-}
-
-/// Pass before a reconstructing scheme: gradients of one cluster's particles.
-template <class Kernel>
-void cluster_gradients(const PairInput& in, const Reconstruction& gradients, const Cluster& cluster, Scratch& scratch) {
-  std::uint32_t near_count, variable_count, wall_count;
-  gather<Kernel, false>(in, cluster, scratch, near_count, variable_count, wall_count);
-  const double norm = Kernel::norm(in.dimension);
-  const Reconstruction::Lanes i = Reconstruction::load(in.packed + cluster.begin, nullptr, cluster.count);
-  const PairH<Kernel> pair_h{i.h, norm, in.dimension};
-  Reconstruction::Sums sums;
-  Mask seen{};
-  if (near_count > 0)
-    pairs(gradients, ConstantH<Kernel>(in.groups[cluster.group].h_max, norm, in.dimension), i, scratch.near, nullptr,
-          near_count, sums, seen);
-  if (variable_count > 0) pairs(gradients, pair_h, i, scratch.variable, nullptr, variable_count, sums, seen);
-  if (wall_count > 0) walls(gradients, pair_h, i, scratch.wall, wall_count, sums, seen);
-  gradients.store(sums, in.gradients + cluster.begin, cluster.count);
-}
-
-template <class Kernel, class Scheme>
-void cluster_wall_forces(const PairInput& in, const Scheme& scheme, const Cluster& cluster, Scratch& scratch,
-                         const WallForces& out) {
-  const Box3 box = box_of(in.wall_x, in.wall_y, in.wall_z, cluster.begin, cluster.count);
-  const double norm = Kernel::norm(in.dimension);
-  const WallLanes w = load_walls(in.walls + cluster.begin, cluster.count);
-  WallSums sums;
-  for (int g = 0; g < in.group_count; ++g) {
-    const double reach = Kernel::support * in.groups[g].h_max;
-    for_each_image(in.mirror, box, reach, [&](double sx, double sy, double sz, const Box3& seen_box) {
-      const std::uint32_t found = scan_grid(in.groups[g].grid, in.x, in.y, in.z, seen_box, reach, scratch);
-      if (found > scratch.near_capacity) grow_near(scratch, found);
-      copy_candidates(in.packed, scratch.index, found, sx, sy, sz, scratch.near);
-      for (std::uint32_t k = 0; k < found; ++k) {
-        const PackedParticle& j = scratch.near[k];
-        const Vec dx = j.x - w.x, dy = j.y - w.y, dz = j.z - w.z;
-        const Vec r2 = dx * dx + dy * dy + dz * dz;
-        const PairH<Kernel> smoothing{broadcast(j.h), norm, in.dimension};
-        const Vec h = broadcast(j.h);
-        const Mask near = smoothing.near(r2, h);
-        scheme.force(w, j, dx, dy, dz, r2, smoothing.gradient(r2, h, near), near, sums);
+  void with_walls() {
+    const PairKind kind{.constant_h = true, .gas = own_.gas};
+    const double reach = Kernel::support * h_cluster_;
+    for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
+      list_.size = 0;
+      scan_grid(in_.wall_grid, in_.wall_x, in_.wall_y, in_.wall_z, box, reach, 0, list_);
+      const std::uint32_t real = list_.size;
+      if (real == 0) return;
+      list_.pad(0);
+      list_.fill_places(0, real, origin_, image, T(1e3 * reach));
+      list_.template fill_rows<List::state>(0, in_.wall, image);
+      if (Pass::symmetric && out_.wall != nullptr) {
+        pairs_with<Wall, WallSums<V>, true>(kind);
+        list_.template hand_out<WallSums<V>>(real, out_.wall, image);
+      } else {
+        pairs_with<Wall, WallSums<V>, false>(kind);
       }
     });
   }
-  store_walls(sums, cluster.begin, cluster.count, out);
+
+  /// The candidates from `begin` on get what the pairs read of them.
+  void fill(std::uint32_t begin, int image, double reach) {
+    const std::uint32_t real = list_.size;
+    if (real == begin) return;
+    list_.pad(begin);
+    list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
+    list_.template fill_rows<List::state>(begin, in_.fluid, image);
+    if constexpr (State::with_gradients) list_.template fill_rows<List::gradient>(begin, in_.gradient, image);
+  }
+
+  template <class Other, class OtherSums, bool two_sided>
+  void pairs_with(const PairKind& kind) {
+    if constexpr (two_sided && Pass::symmetric)
+      for (std::uint32_t b = 0; b < list_.blocks(); ++b)
+        for (int k = 0; k < OtherSums::count; ++k) store(list_.block(b) + List::sum + k * W, V{});
+    if (list_.size == 0) return;
+    for (int l = 0; l < cluster_.count; ++l) {
+      if (kind.constant_h)
+        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(h_of(l), in_.dimension));
+      else
+        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(h_of(l), in_.dimension));
+    }
+  }
+
+  /// Particle l of the cluster with all candidates.
+  template <class Other, class OtherSums, bool two_sided, class Smoothing>
+  void pairs_of(int l, const PairKind& kind, const Smoothing& smoothing) {
+    const std::uint32_t me = cluster_.begin + l;
+    State i;
+    i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
+    if constexpr (State::with_gradients)
+      i.read_gradients([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.gradient + me)[k])); });
+    const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
+            z = broadcast(T(in_.z[me] - origin_[2]));
+    Sums si;
+    Mask<T> seen{};
+    Pair<V> pair;
+    pair.gas = kind.gas;
+    T* block = list_.block(0);
+    T* const end = list_.block(list_.blocks());
+    for (; block != end; block += List::stride) {
+      Other j;
+      j.read([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::state + k * W); });
+      if constexpr (requires { j.climb; })
+        j.read_gradients([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::gradient + k * W); });
+      pair.dx = x - load(block + List::place);
+      pair.dy = y - load(block + List::place + W);
+      pair.dz = z - load(block + List::place + 2 * W);
+      pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
+      smoothing.evaluate(pair, block + List::state + 7 * W);
+      seen -= pair.near;
+      OtherSums sj;
+      if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sum = load(block + List::sum + k * W); });
+      if constexpr (same_type<Other, Wall>)
+        pass_.wall(i, j, pair, si, sj);
+      else
+        pass_.pair(i, j, pair, si, sj);
+      if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
+    }
+    (two_sided && !same_type<Other, Wall> ? seen_twice_ : seen_) += seen;
+    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { add(sums_[l][k], k, sum); });
+  }
+
+  /// Adds the lanes' part of sum k to `held`.
+  static UNDEX_INLINE void add(double& held, int k, V part) {
+    if (Sums::is_maximum(k)) {
+      const double most = maximum_of(part);
+      held = most > held ? most : held;
+    } else {
+      held += sum_of(part);
+    }
+  }
+
+  void store_sums() {
+    for (int l = 0; l < cluster_.count; ++l) {
+      const std::uint32_t me = cluster_.begin + l;
+      if constexpr (Pass::symmetric) {
+        List::template add_row<Sums>(&out_.fluid[me].fx, sums_[l]);
+      } else {
+        pass_.store(sums_[l], in_.gradient[me]);
+      }
+    }
+  }
+
+  const PairInput& in_;
+  const Pass& pass_;
+  const Cluster& cluster_;
+  const GroupView& own_;
+  List list_;
+  const PairOutput& out_;
+  Box3 box_;
+  double origin_[3];
+  double h_cluster_;
+  double sums_[cluster_size][Sums::count] = {};
+  Mask<T> seen_{}, seen_twice_{};
+};
+
+/// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away
+/// (blocks.hpp).
+void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
+  const Block& me = in.blocks[b];
+  for (int dz = -2; dz <= 2; ++dz)
+    for (int dy = -2; dy <= 2; ++dy) {
+      const int iy = me.iy + dy, iz = me.iz + dz;
+      if (iy < 0 || iz < 0 || iy >= in.columns_y || iz >= in.columns_z) continue;
+      const std::uint32_t other = in.rank[std::size_t(iz) * in.columns_y + iy];
+      if (other >= b) continue;
+      for (int spins = 0; !__atomic_load_n(&in.finished[other], __ATOMIC_ACQUIRE); ++spins)
+        spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
+    }
+}
+
+template <class Kernel, template <class> class Scheme, class T>
+void pass(const PairInput& in, const PairOutput& out) {
+  const Scheme<T> scheme(in);
+  for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
+#pragma omp parallel for schedule(monotonic : dynamic, 1)
+  for (std::uint32_t b = 0; b < in.block_count; ++b) {
+    if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
+    long long met = 0;
+    for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
+      met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
+    out.interactions[b] = met;
+    __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
+  }
 }
 
 }  // namespace
 
-template <class Kernel, class Scheme>
-void fluid_rates(const PairInput& in, const FluidRates& out) {
-  if constexpr (Scheme::needs_gradients) {
-    const Reconstruction gradients{in.dimension};
-#pragma omp parallel for schedule(dynamic, 16)
-    for (std::uint32_t k = 0; k < in.cluster_count; ++k)
-      cluster_gradients<Kernel>(in, gradients, in.clusters[k], in.scratch[omp_get_thread_num()]);
-  }
-  const Scheme scheme(in);
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::uint32_t k = 0; k < in.cluster_count; ++k)
-    cluster_rates<Kernel>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out, out.interactions[k]);
+template <class Kernel, class T>
+void monaghan_rates(const PairInput& in, const PairOutput& out) {
+  pass<Kernel, Monaghan, T>(in, out);
 }
 
-template <class Kernel, class Scheme>
-void wall_forces(const PairInput& in, const Cluster* clusters, std::uint32_t count, const WallForces& out) {
-  const Scheme scheme(in);
-#pragma omp parallel for schedule(dynamic, 16)
-  for (std::uint32_t k = 0; k < count; ++k)
-    cluster_wall_forces<Kernel>(in, scheme, clusters[k], in.scratch[omp_get_thread_num()], out);
+template <class Kernel, class T>
+void riemann_rates(const PairInput& in, const PairOutput& out) {
+  pass<Kernel, Reconstruction, T>(in, out);
+  pass<Kernel, Riemann, T>(in, out);
 }
 
-#define UNDEX_INSTANTIATE(Kernel, Scheme)                                   \
-  template void fluid_rates<Kernel, Scheme>(const PairInput&, const FluidRates&); \
-  template void wall_forces<Kernel, Scheme>(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);
-UNDEX_INSTANTIATE(Gaussian, Monaghan)
-UNDEX_INSTANTIATE(WendlandC2, Monaghan)
-UNDEX_INSTANTIATE(Gaussian, Riemann)
-UNDEX_INSTANTIATE(WendlandC2, Riemann)
+#define UNDEX_INSTANTIATE(Kernel)                                                  \
+  template void monaghan_rates<Kernel, double>(const PairInput&, const PairOutput&); \
+  template void monaghan_rates<Kernel, float>(const PairInput&, const PairOutput&);  \
+  template void riemann_rates<Kernel, double>(const PairInput&, const PairOutput&);  \
+  template void riemann_rates<Kernel, float>(const PairInput&, const PairOutput&);
+UNDEX_INSTANTIATE(Gaussian)
+UNDEX_INSTANTIATE(WendlandC2)
 
 }  // namespace undex::sph::UNDEX_LEVEL

@@ -8,14 +8,14 @@ namespace undex::sph {
 
 struct PairLoops {
   const char* cpu_level;
-  int lanes;  ///< particles per cluster
-  bool needs_gradients;  ///< must PairInput::gradients be given?
-  void (*fluid_rates)(const PairInput&, const FluidRates&);
-  void (*wall_forces)(const PairInput&, const Cluster* wall_clusters, std::uint32_t count, const WallForces&);
+  bool needs_gradients;  ///< must PairInput::gradient be given?
+  double support;        ///< of the kernel, in smoothing lengths
+  /// Adds every pair to the sums of `out`, which the caller has set to zero.
+  void (*rates)(const PairInput&, const PairOutput&);
 };
 
 /// The loops of the best instruction set that this machine has; the environment variable UNDEX_CPU_LEVEL (x86-64-v2, -v3,
 /// -v4) asks for a lower one.
-PairLoops pair_loops(KernelName kernel, SchemeName scheme);
+PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision);
 
 }  // namespace undex::sph

@@ -1,6 +1,8 @@
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <string_view>
+#include <type_traits>
 
 #include "sph_fluid/fluid.hpp"
 #include "sph_fluid/kernels.hpp"
@@ -8,25 +10,24 @@
 
 namespace undex::sph {
 
-// The schemes' definitions stay with the loops; here their names are enough.
-#define UNDEX_DECLARE_LEVEL(level)                                                                              \
-  namespace level {                                                                                             \
-  struct Monaghan;                                                                                              \
-  struct Riemann;                                                                                               \
-  template <class Kernel, class Scheme>                                                                         \
-  void fluid_rates(const PairInput&, const FluidRates&);                                                        \
-  template <class Kernel, class Scheme>                                                                         \
-  void wall_forces(const PairInput&, const Cluster*, std::uint32_t, const WallForces&);                         \
-  template <class Kernel>                                                                                       \
-  PairLoops loops(SchemeName scheme, const char* name, int lanes) {                                             \
-    if (scheme == SchemeName::riemann)                                                                          \
-      return {name, lanes, true, &fluid_rates<Kernel, Riemann>, &wall_forces<Kernel, Riemann>};                 \
-    return {name, lanes, false, &fluid_rates<Kernel, Monaghan>, &wall_forces<Kernel, Monaghan>};                \
-  }                                                                                                             \
-  PairLoops loops(KernelName kernel, SchemeName scheme, const char* name, int lanes) {                          \
-    return kernel == KernelName::gaussian ? loops<Gaussian>(scheme, name, lanes)                                \
-                                          : loops<WendlandC2>(scheme, name, lanes);                             \
-  }                                                                                                             \
+#define UNDEX_DECLARE_LEVEL(level)                                                                             \
+  namespace level {                                                                                            \
+  template <class Kernel, class T>                                                                             \
+  void monaghan_rates(const PairInput&, const PairOutput&);                                                    \
+  template <class Kernel, class T>                                                                             \
+  void riemann_rates(const PairInput&, const PairOutput&);                                                     \
+  template <class Kernel, class T>                                                                             \
+  PairLoops loops(SchemeName scheme, const char* name) {                                                       \
+    if (scheme == SchemeName::riemann) return {name, true, Kernel::support, &riemann_rates<Kernel, T>};        \
+    return {name, false, Kernel::support, &monaghan_rates<Kernel, T>};                                         \
+  }                                                                                                            \
+  template <class T>                                                                                           \
+  PairLoops loops(KernelName kernel, SchemeName scheme, const char* name) {                                    \
+    return kernel == KernelName::gaussian ? loops<Gaussian, T>(scheme, name) : loops<WendlandC2, T>(scheme, name); \
+  }                                                                                                            \
+  PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) {               \
+    return precision == Precision::mixed ? loops<float>(kernel, scheme, name) : loops<double>(kernel, scheme, name); \
+  }                                                                                                            \
   }
 
 UNDEX_DECLARE_LEVEL(v4)
@@ -50,40 +51,45 @@ int machine_level() {
   return level;
 }
 
-template <class T>
-void grow(T*& data, std::uint32_t& capacity, std::uint32_t needed) {
-  const std::uint32_t bigger = needed + needed / 2 + 64;
-  T* fresh = static_cast<T*>(std::aligned_alloc(64, (std::size_t(bigger) * sizeof(T) + 63) / 64 * 64));
-  if (fresh == nullptr) throw std::bad_alloc();
-  for (std::uint32_t k = 0; k < capacity; ++k) fresh[k] = data[k];
-  std::free(data);
-  data = fresh;
-  capacity = bigger;
-}
-
 }  // namespace
 
-void grow_near(Scratch& s, std::uint32_t needed) {
-  std::uint32_t same = s.near_capacity;
-  grow(s.near_gradient, same, needed);
-  grow(s.near, s.near_capacity, needed);
-}
-void grow_variable(Scratch& s, std::uint32_t needed) {
-  std::uint32_t same = s.variable_capacity;
-  grow(s.variable_gradient, same, needed);
-  grow(s.variable, s.variable_capacity, needed);
-}
-void grow_wall(Scratch& s, std::uint32_t needed) { grow(s.wall, s.wall_capacity, needed); }
-void grow_index(Scratch& s, std::uint32_t needed) { grow(s.index, s.index_capacity, needed); }
-
-PairLoops pair_loops(KernelName kernel, SchemeName scheme) {
-  switch (machine_level()) {
-    case 4: return v4::loops(kernel, scheme, "x86-64-v4", 8);
-    case 3: return v3::loops(kernel, scheme, "x86-64-v3", 4);
-    default: return v2::loops(kernel, scheme, "x86-64-v2", 2);
+void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
+  const auto enlarge = [](auto*& data, std::size_t held, std::size_t wanted) {
+    using T = std::remove_reference_t<decltype(data)>;
+    void* fresh = std::aligned_alloc(64, (wanted + 63) / 64 * 64);
+    if (fresh == nullptr) throw std::bad_alloc();
+    if (held > 0) std::memcpy(fresh, data, held);
+    std::free(data);
+    data = static_cast<T>(fresh);
+  };
+  if (bytes > s.bytes) {
+    bytes += bytes / 2;
+    enlarge(s.blocks, s.bytes, bytes);
+    s.bytes = bytes;
+  }
+  if (candidates > s.capacity) {
+    candidates += candidates / 2;
+    enlarge(s.index, s.capacity * sizeof *s.index, candidates * sizeof *s.index);
+    for (double** axis : {&s.x, &s.y, &s.z}) enlarge(*axis, s.capacity * sizeof **axis, candidates * sizeof **axis);
+    s.capacity = candidates;
   }
 }
 
-const char* cpu_level() { return pair_loops(KernelName::wendland_c2, SchemeName::monaghan).cpu_level; }
+void release(Scratch& s) {
+  for (void* data : {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y),
+                     static_cast<void*>(s.z)})
+    std::free(data);
+  s = {};
+}
+
+PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision) {
+  switch (machine_level()) {
+    case 4: return v4::loops(kernel, scheme, precision, "x86-64-v4");
+    case 3: return v3::loops(kernel, scheme, precision, "x86-64-v3");
+    default: return v2::loops(kernel, scheme, precision, "x86-64-v2");
+  }
+}
+
+const char* cpu_level() { return pair_loops(KernelName::wendland_c2, SchemeName::monaghan, Precision::full).cpu_level; }
 
 }  // namespace undex::sph

@@ -1,13 +1,22 @@
-// The fluid's particles as a structure of arrays. State is what a restart needs; rates are what the last evaluation gave.
+// The fluid's particles. State is what a restart needs; rates are what the last evaluation gave; the rest is scratch.
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
+
+#include "sph_fluid/pair_data.hpp"
 
 namespace undex::sph {
 
+/// Rates one evaluation earlier, for the predictor; they only shape a correction, so single precision serves.
+struct EarlierRates {
+  float ax = 0, ay = 0, az = 0;  ///< [m/s^2]
+  float compression = 0;         ///< [1/s]
+};
+
 struct Particles {
-  // State.
+  // State, a structure of arrays.
   std::vector<double> x, y, z;      ///< [m]
   std::vector<double> vx, vy, vz;   ///< [m/s]
   std::vector<double> rho;          ///< [kg/m^3]
@@ -15,58 +24,61 @@ struct Particles {
   std::vector<double> energy;       ///< specific internal energy [J/kg]; empty where all laws are barotropic
   std::vector<std::uint32_t> id;    ///< place at the start
 
-  // Rates.
-  std::vector<double> ax, ay, az;   ///< [m/s^2]
-  std::vector<double> compression;  ///< (d rho/dt)/rho [1/s]
-  std::vector<double> heat;         ///< viscous heating, or the whole rate of `energy` where that is a field [W/kg]
-  std::vector<double> closing;      ///< closing speed of neighbours [m/s]; not carried from step to step
+  /// Rates. The pair loop sums forces per volume; after the evaluation fx, fy, fz are the acceleration [m/s^2] and `heat` is
+  /// the viscous heating, or the whole rate of `energy` where that is a field [W/kg].
+  std::vector<SumRow> rate;
+  std::vector<EarlierRates> earlier;
 
-  // Rates one evaluation earlier, for the predictor; they only shape a correction, so single precision serves.
-  std::vector<float> ax_before, ay_before, az_before, compression_before;
+  /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
+  /// memory serves as scratch.
+  std::vector<FluidRow> predicted;
+  std::vector<GradientRow> gradient;  ///< of schemes that reconstruct
 
   std::size_t size() const { return x.size(); }
 
-  void resize(std::size_t n, bool with_energy) {
-    for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &ax, &ay, &az, &compression, &heat, &closing}) a->assign(n, 0.0);
-    for (auto* a : {&ax_before, &ay_before, &az_before, &compression_before}) a->assign(n, 0.0f);
+  void resize(std::size_t n, bool with_energy, bool with_gradients) {
+    for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
     if (with_energy) energy.assign(n, 0.0);
     id.resize(n);
+    rate.assign(n, SumRow{});
+    earlier.assign(n, EarlierRates{});
+    predicted.resize(n);
+    if (with_gradients) gradient.resize(n + 1);
   }
 
   /// Puts the particles of first .. first + order.size() into the order given by their present indices.
-  void permute(std::uint32_t first, const std::vector<std::uint32_t>& order, std::vector<double>& spare) {
-    const std::size_t n = order.size();
-    if (spare.size() < n) spare.resize(n);
-    for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy, &ax, &ay, &az, &compression, &heat})
-      reorder(*a, first, order, spare.data());
-    for (auto* a : {&ax_before, &ay_before, &az_before, &compression_before})
-      reorder(*a, first, order, reinterpret_cast<float*>(spare.data()));
-    reorder(id, first, order, reinterpret_cast<std::uint32_t*>(spare.data()));
+  void permute(std::uint32_t first, const std::vector<std::uint32_t>& order) {
+    for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy}) reorder(*a, first, order);
+    reorder(id, first, order);
+    reorder(rate, first, order);
+    reorder(earlier, first, order);
   }
 
-  /// The rates of the last evaluation become those before it.
-  void remember_rates() {
+  /// The rates of the last evaluation become those before it; new ones are summed up from zero.
+  void turn_rates() {
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < size(); ++i) {
-      ax_before[i] = float(ax[i]);
-      ay_before[i] = float(ay[i]);
-      az_before[i] = float(az[i]);
-      compression_before[i] = float(compression[i]);
+      const SumRow& r = rate[i];
+      earlier[i] = {float(r.fx), float(r.fy), float(r.fz), float(r.compression)};
+      rate[i] = SumRow{};
     }
   }
 
   std::size_t memory_bytes() const {
-    std::size_t bytes = id.capacity() * sizeof(std::uint32_t);
-    for (const auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy, &ax, &ay, &az, &compression, &heat, &closing})
-      bytes += a->capacity() * sizeof(double);
-    return bytes + 4 * ax_before.capacity() * sizeof(float);
+    std::size_t bytes = 0;
+    for (const auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy}) bytes += a->capacity() * sizeof(double);
+    return bytes + id.capacity() * sizeof(std::uint32_t) + rate.capacity() * sizeof(SumRow) +
+           earlier.capacity() * sizeof(EarlierRates) + predicted.capacity() * sizeof(FluidRow) +
+           gradient.capacity() * sizeof(GradientRow);
   }
 
  private:
   template <class T>
-  static void reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order, T* spare) {
+  void reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order) {
+    static_assert(sizeof(T) <= sizeof(FluidRow));
     if (a.empty()) return;
     T* data = a.data();
+    T* spare = reinterpret_cast<T*>(predicted.data());
     const std::size_t n = order.size();
 #pragma omp parallel
     {

@@ -2,87 +2,92 @@
 // by the inverse of the moment matrix M = - sum_j V_j x_ij x_ij^T F.
 #pragma once
 
-#include "sph_fluid/fluid_lanes.hpp"
+#include "sph_fluid/fluid_state.hpp"
 #include "sph_fluid/wall_mirror.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
+template <class T>
 struct Reconstruction {
-  using Lanes = FluidLanes;
+  using V = Vec<T>;
+  using State = FluidState<V>;
+  using Wall = WallState<V>;
   struct Sums {
-    Vec xx{}, yy{}, zz{}, xy{}, yz{}, zx{};  // moment matrix
-    Vec v[3][3] = {};                        // sum V_j (v_j - v_i)_a (x_ij)_b F
-    Vec p[3] = {};                           // sum V_j (p_j - p_i) (x_ij)_b F
+    V xx{}, yy{}, zz{}, xy{}, yz{}, zx{};  // moment matrix
+    V v[9] = {};                           // sum V_j (v_j - v_i)_a (x_ij)_b F, at 3a + b
+    V p[3] = {};                           // sum V_j (p_j - p_i) (x_ij)_b F
+    static constexpr int count = 18;
+    static constexpr bool is_maximum(int) { return false; }
+
+    template <class Visit>
+    UNDEX_INLINE void each(Visit visit) {
+      visit(xx, 0), visit(yy, 1), visit(zz, 2), visit(xy, 3), visit(yz, 4), visit(zx, 5);
+      for (int k = 0; k < 9; ++k) visit(v[k], 6 + k);
+      for (int k = 0; k < 3; ++k) visit(p[k], 15 + k);
+    }
   };
+  static constexpr bool symmetric = false;
   int dimension;
 
-  UNDEX_INLINE static Lanes load(const PackedParticle* first, const PackedGradient*, int count) {
-    return load_fluid(first, count);
-  }
+  explicit Reconstruction(const PairInput& in) : dimension(in.dimension) {}
 
-  UNDEX_INLINE static void add(Vec ux, Vec uy, Vec uz, Vec dp, Vec dx, Vec dy, Vec dz, Vec FV, Sums& s) {
-    const Vec wx = FV * dx, wy = FV * dy, wz = FV * dz;
-    s.xx -= dx * wx;
-    s.yy -= dy * wy;
-    s.zz -= dz * wz;
-    s.xy -= dx * wy;
-    s.yz -= dy * wz;
-    s.zx -= dz * wx;
-    s.v[0][0] += ux * wx;
-    s.v[0][1] += ux * wy;
-    s.v[0][2] += ux * wz;
-    s.v[1][0] += uy * wx;
-    s.v[1][1] += uy * wy;
-    s.v[1][2] += uy * wz;
-    s.v[2][0] += uz * wx;
-    s.v[2][1] += uz * wy;
-    s.v[2][2] += uz * wz;
+  UNDEX_INLINE static void add(V ux, V uy, V uz, V dp, const Pair<V>& pair, V volume, Sums& s) {
+    const V FV = pair.F * volume;
+    const V wx = FV * pair.dx, wy = FV * pair.dy, wz = FV * pair.dz;
+    s.xx -= pair.dx * wx;
+    s.yy -= pair.dy * wy;
+    s.zz -= pair.dz * wz;
+    s.xy -= pair.dx * wy;
+    s.yz -= pair.dy * wz;
+    s.zx -= pair.dz * wx;
+    s.v[0] += ux * wx;
+    s.v[1] += ux * wy;
+    s.v[2] += ux * wz;
+    s.v[3] += uy * wx;
+    s.v[4] += uy * wy;
+    s.v[5] += uy * wz;
+    s.v[6] += uz * wx;
+    s.v[7] += uz * wy;
+    s.v[8] += uz * wz;
     s.p[0] += dp * wx;
     s.p[1] += dp * wy;
     s.p[2] += dp * wz;
   }
 
-  UNDEX_INLINE void pair(const Lanes& i, const PackedParticle& j, const PackedGradient*, Vec dx, Vec dy, Vec dz, Vec, Vec,
-                         Vec F, Mask, Sums& sums) const {
-    add(j.vx - i.vx, j.vy - i.vy, j.vz - i.vz, j.p - i.p, dx, dy, dz, F * j.V, sums);
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums&) const {
+    add(j.vx - i.vx, j.vy - i.vy, j.vz - i.vz, j.p - i.p, pair, j.volume, si);
   }
 
   /// The mirrored state: the same pressure, velocity mirrored about the wall's.
-  UNDEX_INLINE void wall(const Lanes& i, const PackedWall& w, Vec dx, Vec dy, Vec dz, Vec, Vec, Vec F, Mask,
-                         Sums& sums) const {
-    const double stick = stick_of(w.slip);
-    const Vec ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
-    const Vec un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
-    add(-2.0 * (un * w.nx + stick * ux), -2.0 * (un * w.ny + stick * uy), -2.0 * (un * w.nz + stick * uz), Vec{}, dx, dy,
-        dz, F * w.V, sums);
+  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>&) const {
+    const V stick = stick_of(w.slip);
+    const V ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
+    const V un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
+    add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), V{}, pair, w.volume,
+        si);
   }
 
-  UNDEX_INLINE void store(const Sums& s, PackedGradient* out, int count) const {
-    Vec xx = s.xx, yy = s.yy, zz = s.zz;
-    if (dimension < 2) yy = broadcast(1.0);
-    if (dimension < 3) zz = broadcast(1.0);
+  /// Gradients of a particle from its sums, in the order of Sums.
+  void store(const double* s, GradientRow& out) const {
+    const double xx = s[0], yy = dimension < 2 ? 1.0 : s[1], zz = dimension < 3 ? 1.0 : s[2], xy = s[3], yz = s[4], zx = s[5];
     // Adjugate of the symmetric matrix; where neighbours are too few or in a plane, the uncorrected sum stands.
-    const Vec a = yy * zz - s.yz * s.yz, b = s.zx * s.yz - s.xy * zz, c = s.xy * s.yz - s.zx * yy;
-    const Vec d = xx * zz - s.zx * s.zx, e = s.xy * s.zx - xx * s.yz, f = xx * yy - s.xy * s.xy;
-    const Vec determinant = xx * a + s.xy * b + s.zx * c;
-    const Mask good = determinant > 0.05;
-    const Vec one = broadcast(1.0);
-    const Vec inverse = 1.0 / (good ? determinant : one);
-    const Vec B[3][3] = {{good ? a * inverse : one, keep(good, b * inverse), keep(good, c * inverse)},
-                         {keep(good, b * inverse), good ? d * inverse : one, keep(good, e * inverse)},
-                         {keep(good, c * inverse), keep(good, e * inverse), good ? f * inverse : one}};
-    Vec g[3][3], p[3];
-    for (int r = 0; r < 3; ++r) {
-      for (int q = 0; q < 3; ++q) g[r][q] = s.v[r][0] * B[0][q] + s.v[r][1] * B[1][q] + s.v[r][2] * B[2][q];
-      p[r] = s.p[0] * B[0][r] + s.p[1] * B[1][r] + s.p[2] * B[2][r];
-    }
-    for (int l = 0; l < count; ++l) {
-      PackedGradient& q = out[l];
-      for (int r = 0; r < 3; ++r) {
-        q.strain[r] = float(g[r][r][l]);
-        q.strain[3 + r] = float(0.5 * (g[r][(r + 1) % 3][l] + g[(r + 1) % 3][r][l]));
-        q.pressure[r] = float(p[r][l]);
-      }
+    double B[3][3] = {{yy * zz - yz * yz, zx * yz - xy * zz, xy * yz - zx * yy},
+                      {0.0, xx * zz - zx * zx, xy * zx - xx * yz},
+                      {0.0, 0.0, xx * yy - xy * xy}};
+    const double determinant = xx * B[0][0] + xy * B[0][1] + zx * B[0][2];
+    const bool good = determinant > 0.05;
+    const double inverse = good ? 1.0 / determinant : 0.0;
+    for (int a = 0; a < 3; ++a)
+      for (int b = a; b < 3; ++b) B[a][b] = B[b][a] = good ? B[a][b] * inverse : a == b ? 1.0 : 0.0;
+    double g[3][3];
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        g[a][b] = s[6 + 3 * a] * B[0][b] + s[7 + 3 * a] * B[1][b] + s[8 + 3 * a] * B[2][b];
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3;
+      out.strain[a] = float(g[a][a]);
+      out.strain[3 + a] = float(0.5 * (g[a][b] + g[b][a]));
+      out.pressure[a] = float(s[15] * B[0][a] + s[16] * B[1][a] + s[17] * B[2][a]);
     }
   }
 };

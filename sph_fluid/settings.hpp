@@ -22,6 +22,12 @@ enum class SchemeName {
   riemann,   ///< limited linear reconstruction and an acoustic Riemann flux per pair
 };
 
+/// Numbers in the loop over pairs. State and its integration are in double precision always.
+enum class Precision {
+  full,   ///< double
+  mixed,  ///< pairs in single precision, on places relative to their cluster
+};
+
 /// What a wall does to the flow along it.
 enum class FaceCondition { no_slip, free_slip, open };
 
@@ -91,6 +97,7 @@ struct Symmetry {
 struct Numerics {
   KernelName kernel = KernelName::wendland_c2;
   SchemeName scheme = SchemeName::riemann;
+  Precision precision = Precision::full;
   double eta = 1.5;           ///< h/dx
   double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6)
   double beta = 10.0;         ///< and the quadratic one

@@ -1,54 +1,191 @@
-// A thin layer over the compiler's vector types: W doubles at a time, W set by the instruction set that the including
+// A thin layer over the compiler's vector types: as many numbers at a time as the instruction set holds that the including
 // file is compiled for. Everything lives in a namespace of that level, so that one program can hold several levels.
 // Chosen over std::experimental::simd because the compiler contracts plain + and * of these types to FMA, compiles them
 // ten times faster, and no library template can leak AVX-512 code into the baseline part of the program.
 #pragma once
 
-#if defined(__AVX512F__)
 #include <immintrin.h>
+
+#if defined(__AVX512F__)
 #define UNDEX_LEVEL v4
-#define UNDEX_LANES 8
+#define UNDEX_VECTOR_BYTES 64
 #elif defined(__AVX2__)
 #define UNDEX_LEVEL v3
-#define UNDEX_LANES 4
+#define UNDEX_VECTOR_BYTES 32
 #else
 #define UNDEX_LEVEL v2
-#define UNDEX_LANES 2
+#define UNDEX_VECTOR_BYTES 16
 #endif
+
+#define UNDEX_INLINE inline __attribute__((always_inline))
+#define UNDEX_LAMBDA_INLINE __attribute__((always_inline))
 
 namespace undex::sph::UNDEX_LEVEL {
 
-inline constexpr int lanes = UNDEX_LANES;
-typedef double Vec __attribute__((vector_size(UNDEX_LANES * 8)));
-typedef long long Mask __attribute__((vector_size(UNDEX_LANES * 8)));  // all bits set where true
+/// A vector of T (double or float), and of masks for it (all bits set where true).
+template <class T>
+struct VectorOf;
+template <>
+struct VectorOf<double> {
+  typedef double type __attribute__((vector_size(UNDEX_VECTOR_BYTES)));
+  typedef long long mask __attribute__((vector_size(UNDEX_VECTOR_BYTES)));
+};
+template <>
+struct VectorOf<float> {
+  typedef float type __attribute__((vector_size(UNDEX_VECTOR_BYTES)));
+  typedef int mask __attribute__((vector_size(UNDEX_VECTOR_BYTES)));
+};
+template <class T>
+using Vec = typename VectorOf<T>::type;
+template <class T>
+using Mask = typename VectorOf<T>::mask;
+template <class T>
+inline constexpr int lanes = UNDEX_VECTOR_BYTES / int(sizeof(T));
 
-#define UNDEX_INLINE inline __attribute__((always_inline))
+/// Are two types the same? (The standard's own lives in a library header, which must stay out of these files.)
+template <class A, class B>
+inline constexpr bool same_type = false;
+template <class A>
+inline constexpr bool same_type<A, A> = true;
 
-UNDEX_INLINE Vec broadcast(double a) { return a - Vec{}; }
-UNDEX_INLINE Vec minimum(Vec a, Vec b) { return a < b ? a : b; }
-UNDEX_INLINE Vec maximum(Vec a, Vec b) { return a > b ? a : b; }
-UNDEX_INLINE Vec keep(Mask m, Vec a) { return m ? a : Vec{}; }
+/// The number type in a vector.
+template <class V>
+struct ElementOf;
+template <>
+struct ElementOf<Vec<double>> {
+  using type = double;
+};
+template <>
+struct ElementOf<Vec<float>> {
+  using type = float;
+};
+template <class V>
+using Element = typename ElementOf<V>::type;
 
-#if UNDEX_LANES == 8
-/// 1/a to 3e-13 relative: 14-bit estimate and one third-order step.
-UNDEX_INLINE Vec reciprocal(Vec a) {
-  const Vec r = (Vec)_mm512_rcp14_pd((__m512d)a);
-  const Vec e = 1.0 - a * r;
+template <class T>
+UNDEX_INLINE Vec<T> broadcast(T a) {
+  return a - Vec<T>{};
+}
+template <class T>
+UNDEX_INLINE Vec<T> load(const T* from) {
+  return *reinterpret_cast<const Vec<T>*>(from);
+}
+template <class T>
+UNDEX_INLINE void store(T* to, Vec<T> a) {
+  *reinterpret_cast<Vec<T>*>(to) = a;
+}
+template <class V>
+UNDEX_INLINE V minimum(V a, V b) {
+  return a < b ? a : b;
+}
+template <class V>
+UNDEX_INLINE V maximum(V a, V b) {
+  return a > b ? a : b;
+}
+template <class M, class V>
+UNDEX_INLINE V keep(M m, V a) {
+  return m ? a : V{};
+}
+
+/// Loads lanes<double> numbers from anywhere, converted to double.
+UNDEX_INLINE Vec<double> load_double(const double* from) {
+  Vec<double> a;
+  __builtin_memcpy(&a, from, sizeof a);
+  return a;
+}
+UNDEX_INLINE Vec<double> load_double(const float* from) {
+  float part __attribute__((vector_size(UNDEX_VECTOR_BYTES / 2)));
+  __builtin_memcpy(&part, from, sizeof part);
+  return __builtin_convertvector(part, Vec<double>);
+}
+/// Stores lanes<double> numbers, converted.
+UNDEX_INLINE void store_converted(double* to, Vec<double> a) { __builtin_memcpy(to, &a, sizeof a); }
+UNDEX_INLINE void store_converted(float* to, Vec<double> a) {
+  typedef float Half __attribute__((vector_size(UNDEX_VECTOR_BYTES / 2)));
+  const Half part = __builtin_convertvector(a, Half);
+  __builtin_memcpy(to, &part, sizeof part);
+}
+
+/// r[a][b] becomes r[b][a].
+UNDEX_INLINE void transpose(Vec<double> (&r)[lanes<double>]) {
+#define UNDEX_SWAP(a, b, low, high)                                                    \
+  {                                                                                    \
+    const Vec<double> x = r[a], y = r[b];                                              \
+    r[a] = __builtin_shufflevector(x, y, low);                                         \
+    r[b] = __builtin_shufflevector(x, y, high);                                        \
+  }
+#define UNDEX_LIST(...) __VA_ARGS__
+#if UNDEX_VECTOR_BYTES == 64
+_Pragma("GCC unroll 8") for (int a = 0; a < 4; ++a)
+    UNDEX_SWAP(a, a + 4, UNDEX_LIST(0, 1, 2, 3, 8, 9, 10, 11), UNDEX_LIST(4, 5, 6, 7, 12, 13, 14, 15))
+_Pragma("GCC unroll 8") for (int b = 0; b < 4; ++b)
+    UNDEX_SWAP(b + (b & 2), b + (b & 2) + 2, UNDEX_LIST(0, 1, 8, 9, 4, 5, 12, 13), UNDEX_LIST(2, 3, 10, 11, 6, 7, 14, 15))
+_Pragma("GCC unroll 8") for (int a = 0; a < 8; a += 2)
+    UNDEX_SWAP(a, a + 1, UNDEX_LIST(0, 8, 2, 10, 4, 12, 6, 14), UNDEX_LIST(1, 9, 3, 11, 5, 13, 7, 15))
+#elif UNDEX_VECTOR_BYTES == 32
+  for (int a = 0; a < 2; ++a) UNDEX_SWAP(a, a + 2, UNDEX_LIST(0, 1, 4, 5), UNDEX_LIST(2, 3, 6, 7))
+  for (int a = 0; a < 4; a += 2) UNDEX_SWAP(a, a + 1, UNDEX_LIST(0, 4, 2, 6), UNDEX_LIST(1, 5, 3, 7))
+#else
+  UNDEX_SWAP(0, 1, UNDEX_LIST(0, 2), UNDEX_LIST(1, 3))
+#endif
+#undef UNDEX_LIST
+#undef UNDEX_SWAP
+}
+
+/// Sum or maximum over the lanes.
+#if UNDEX_VECTOR_BYTES == 64
+UNDEX_INLINE double sum_of(Vec<double> a) { return _mm512_reduce_add_pd((__m512d)a); }
+UNDEX_INLINE float sum_of(Vec<float> a) { return _mm512_reduce_add_ps((__m512)a); }
+UNDEX_INLINE double maximum_of(Vec<double> a) { return _mm512_reduce_max_pd((__m512d)a); }
+UNDEX_INLINE float maximum_of(Vec<float> a) { return _mm512_reduce_max_ps((__m512)a); }
+#else
+template <class V>
+UNDEX_INLINE Element<V> sum_of(V a) {
+  Element<V> sum = a[0];
+  for (int l = 1; l < lanes<Element<V>>; ++l) sum += a[l];
+  return sum;
+}
+template <class V>
+UNDEX_INLINE Element<V> maximum_of(V a) {
+  Element<V> most = a[0];
+  for (int l = 1; l < lanes<Element<V>>; ++l) most = a[l] > most ? a[l] : most;
+  return most;
+}
+#endif
+
+// 1/a and 1/sqrt(a) for a > 0: an estimate of 14 bits where there is one, and a Newton step of third order (relative
+// error below 1e-12 in double, a rounding or two in float).
+#if UNDEX_VECTOR_BYTES == 64
+UNDEX_INLINE Vec<double> reciprocal(Vec<double> a) {
+  const Vec<double> r = (Vec<double>)_mm512_rcp14_pd((__m512d)a);
+  const Vec<double> e = 1.0 - a * r;
   return r + r * (e + e * e);
 }
-/// 1/sqrt(a) to about 1e-12 relative, a > 0.
-UNDEX_INLINE Vec reciprocal_sqrt(Vec a) {
-  const Vec r = (Vec)_mm512_rsqrt14_pd((__m512d)a);
-  const Vec e = 1.0 - a * r * r;
+UNDEX_INLINE Vec<float> reciprocal(Vec<float> a) {
+  const Vec<float> r = (Vec<float>)_mm512_rcp14_ps((__m512)a);
+  return r + r * (1.0f - a * r);
+}
+UNDEX_INLINE Vec<double> reciprocal_sqrt(Vec<double> a) {
+  const Vec<double> r = (Vec<double>)_mm512_rsqrt14_pd((__m512d)a);
+  const Vec<double> e = 1.0 - a * r * r;
   return r + r * e * (0.5 + e * (0.375 + e * 0.3125));
 }
-#else
-UNDEX_INLINE Vec reciprocal(Vec a) { return 1.0 / a; }
-UNDEX_INLINE Vec reciprocal_sqrt(Vec a) {
-  Vec r;
-  for (int l = 0; l < lanes; ++l) r[l] = 1.0 / __builtin_sqrt(a[l]);
-  return r;
+UNDEX_INLINE Vec<float> reciprocal_sqrt(Vec<float> a) {
+  const Vec<float> r = (Vec<float>)_mm512_rsqrt14_ps((__m512)a);
+  return r + 0.5f * r * (1.0f - a * r * r);
 }
+#else
+template <class V>
+UNDEX_INLINE V reciprocal(V a) {
+  return Element<V>(1) / a;
+}
+#if UNDEX_VECTOR_BYTES == 32
+UNDEX_INLINE Vec<double> reciprocal_sqrt(Vec<double> a) { return 1.0 / (Vec<double>)_mm256_sqrt_pd((__m256d)a); }
+UNDEX_INLINE Vec<float> reciprocal_sqrt(Vec<float> a) { return 1.0f / (Vec<float>)_mm256_sqrt_ps((__m256)a); }
+#else
+UNDEX_INLINE Vec<double> reciprocal_sqrt(Vec<double> a) { return 1.0 / (Vec<double>)_mm_sqrt_pd((__m128d)a); }
+UNDEX_INLINE Vec<float> reciprocal_sqrt(Vec<float> a) { return 1.0f / (Vec<float>)_mm_sqrt_ps((__m128)a); }
+#endif
 #endif
 
 }  // namespace undex::sph::UNDEX_LEVEL

@@ -56,8 +56,11 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "4:1: resolution.spacing is missing; give the distance of particles in m, e.g. spacing = 0.002\n"},
       {"missing table", with(two_gases, "[resolution]\nspacing = 0.01", ""),
        "1:1: resolution.spacing is missing; add [resolution] with spacing = (particle distance in m)\n"},
-      {"wrong type", with(two_gases, "dimension = 1", "dimension = 1\ndeterministic = \"yes\""),
-       "2:17: deterministic must be true or false, not the text \"yes\"\n"},
+      {"wrong type", with(two_gases, "density = 0.125", "density = 0.125\nvariable_h = \"yes\""),
+       "18:14: bodies.right.variable_h must be true or false, not the text \"yes\"\n"},
+      {"too small for single precision", with(two_gases, "spacing = 0.01", "spacing = 1e-5\n[scheme]\nprecision = \"mixed\""),
+       "7:13: scheme.precision = \"mixed\" needs a resolution.spacing of at least 2e-05 m: finer lengths leave the range of "
+       "single precision; take \"full\"\n"},
       {"not a whole number", with(two_gases, "dimension = 1", "dimension = 1\nthreads = 1.5"),
        "2:11: threads must be a whole number, not the number 1.5\n"},
       {"not a table", with(two_gases, "dimension = 1", "dimension = 1\noutput = 3"),

@@ -14,7 +14,7 @@ TEST(Overrides, NumbersListsWordsAndTables) {
                                                {"symmetry.planes", "[]"},
                                                {"scheme.kernel", "gaussian"},
                                                {"title", "\"two words\""},
-                                               {"deterministic", "false"},
+                                               {"output.structure_fields", "false"},
                                                {"bodies.water.velocity", "[0, 0, 1]"},
                                                {"bodies.water.shape.low", "-0.05"},
                                                {"bodies.0.burn", "instantaneous"},
@@ -26,7 +26,7 @@ TEST(Overrides, NumbersListsWordsAndTables) {
   EXPECT_TRUE(scene.structure->symmetry_axes.empty());
   EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
   EXPECT_EQ(scene.title, "two words");
-  EXPECT_FALSE(scene.deterministic);
+  EXPECT_FALSE(scene.output.structure_fields);
   EXPECT_EQ(scene.fluid.bodies[1].velocity, Vec3(0, 0, 1));
   EXPECT_EQ(std::get<Cylinder>(scene.fluid.bodies[1].shape.base).low, -0.05);
   EXPECT_FALSE(scene.fluid.bodies[0].burn.has_value());

@@ -16,7 +16,6 @@ TEST(Read, CoupledTubeWithItsDefaults) {
   const Scene scene = read_text(coupled_tube);
   EXPECT_EQ(scene.fluid.dimension, 3);
   EXPECT_EQ(scene.end_time, 1e-5);
-  EXPECT_TRUE(scene.deterministic);
   EXPECT_EQ(scene.fluid.lattice.spacing, 0.002);
   EXPECT_EQ(scene.fluid.lattice.type, sph::LatticeType::cartesian);
   EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::wendland_c2);

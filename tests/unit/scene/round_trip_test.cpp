@@ -15,7 +15,6 @@ const std::vector<std::string> rich{R"(title = "all \"sorts\" of \\ things\t"
 name = "rich"
 end_time = 2e-5
 threads = 2
-deterministic = false
 [resolution]
 spacing = 0.004
 lattice = "rings"
@@ -31,6 +30,7 @@ time = 1e-6
 [scheme]
 name = "monaghan"
 kernel = "gaussian"
+precision = "mixed"
 eta = 1.25
 alpha = 0.5
 beta = 2
@@ -163,12 +163,12 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.title, "all \"sorts\" of \\ things\t");
   EXPECT_EQ(scene.end_time, 2e-5);
   EXPECT_EQ(scene.fluid.numerics.threads, 2);
-  EXPECT_FALSE(scene.deterministic);
   EXPECT_EQ(scene.fluid.lattice.type, sph::LatticeType::rings);
   EXPECT_EQ(scene.fluid.lattice.fit, "tank");
   EXPECT_EQ(scene.fluid.lattice.origin, Vec3(0.1, 0.2, 0.3));
   EXPECT_EQ(scene.fluid.lattice.jitter, 0.01);
   EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
+  EXPECT_EQ(scene.fluid.numerics.precision, sph::Precision::mixed);
   EXPECT_EQ(scene.fluid.numerics.scheme, sph::SchemeName::monaghan);
   EXPECT_EQ(scene.fluid.numerics.eta, 1.25);
   EXPECT_EQ(scene.fluid.numerics.fixed_step, 1e-8);

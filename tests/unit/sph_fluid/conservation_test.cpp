@@ -23,10 +23,8 @@ Sample blob(int dimension, SchemeName scheme, KernelName kernel) {
     return x;
   };
   for (int k = 0; k < 250; ++k) water.particles.push_back(random_particle(dice, anywhere(), dimension, h, dx, 1000, 1e8, 1500));
-  for (int k = 0; k < 150; ++k) {
+  for (int k = 0; k < 150; ++k)
     gas.particles.push_back(random_particle(dice, anywhere(), dimension, h * dice.between(0.7, 2), dx, 1, 1e6, 700));
-    gas.particles.back().gas = 1.0;
-  }
   for (int k = 0; k < 50; ++k) metal.particles.push_back(random_particle(dice, anywhere(), dimension, 1.4 * h, dx, 3000, 1e9, 5000));
   sample.sets = {water, gas, metal};
   return sample;
@@ -42,8 +40,8 @@ void add_walls(Sample& sample, double slip, bool moving) {
       if (moving) v[a] = dice.between(-80, 80);
     }
     n.normalize();
-    sample.walls.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2],
-                            std::pow(0.1, sample.dimension) * dice.between(0.5, 1.5), slip, 0.0});
+    const double volume = std::pow(0.1, sample.dimension) * dice.between(0.5, 1.5);
+    sample.walls.push_back({{v[0], v[1], v[2], n[0], n[1], n[2], volume, slip}, x[0], x[1], x[2]});
   }
 }
 
@@ -56,9 +54,9 @@ struct Balance {
 Balance balance(const Result& r) {
   Balance b;
   for (std::size_t i = 0; i < r.particles.size(); ++i) {
-    const PackedParticle& q = r.particles[i];
+    const Particle& q = r.particles[i];
     const Rate& rate = r.rates[i];
-    const double m = q.rho * q.V;
+    const double m = q.rho * q.volume;
     b.momentum += m * rate.a;
     b.momentum_scale += m * rate.a.norm();
     const Vec3 x = place(q);
@@ -136,14 +134,14 @@ TEST_P(Conservation, SymmetryPlanesDoNoWork) {
   for (const bool walls : {false, true}) {
     Sample sample = make(3);
     for (Set& set : sample.sets)
-      for (PackedParticle& q : set.particles) {
+      for (Particle& q : set.particles) {
         q.x = std::abs(q.x);
         q.z = std::abs(q.z);
       }
     sample.mirror[0] = sample.mirror[2] = true;
     if (walls) {
       add_walls(sample, 1.0, true);
-      for (PackedWall& w : sample.walls) {
+      for (WallParticle& w : sample.walls) {
         w.x = std::abs(w.x);
         w.z = std::abs(w.z);
       }
@@ -172,7 +170,7 @@ TEST_P(Conservation, HeatIsPositive) {
 TEST_P(Conservation, RotationIsFree) {
   Sample sample = make(3);
   sample.sets.resize(1);
-  for (PackedParticle& q : sample.sets[0].particles) {
+  for (Particle& q : sample.sets[0].particles) {
     q.vx = -30.0 * q.y;
     q.vy = 30.0 * q.x;
     q.vz = 0.0;
@@ -211,7 +209,7 @@ TEST(Reconstruction, LinearFieldsAreExact) {
           Vec3 x = Vec3::Zero();
           const int at[3] = {i, j, k};
           for (int a = 0; a < d; ++a) x[a] = dx * (at[a] + dice.between(-0.2, 0.2));
-          PackedParticle q = random_particle(dice, x, d, 1.5 * dx, dx, 1000, 1, 1500);
+          Particle q = random_particle(dice, x, d, 1.5 * dx, dx, 1000, 1, 1500);
           const Vec3 v = slope.topLeftCorner(3, 3) * x;
           q.vx = v[0];
           q.vy = d > 1 ? v[1] : 0.0;
@@ -223,7 +221,7 @@ TEST(Reconstruction, LinearFieldsAreExact) {
     const Result r = run(sample);
     const int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
     for (std::size_t i = 0; i < r.gradients.size(); ++i) {
-      const PackedGradient& g = r.gradients[i];
+      const GradientRow& g = r.gradients[i];
       // At the blob's corners neighbours are too few, and the sums stand uncorrected.
       bool inside = true;
       for (int a = 0; a < d; ++a) inside = inside && place(r.particles[i])[a] > 0.9 * dx && place(r.particles[i])[a] < (n - 1.9) * dx;

@@ -88,7 +88,7 @@ TYPED_TEST(Kernels, EndsAtTheSupport) {
 TEST(GaussianKernel, PolynomialIsTheExponential) {
   double worst = 0;
   for (double q2 = 0; q2 <= 9.0; q2 += 1e-3)
-    worst = std::max(worst, std::abs(Gaussian::gradient(q2) / (-2.0 * std::exp(-q2)) - 1.0));
+    worst = std::max(worst, std::abs(Gaussian::gradient<double>(q2) / (-2.0 * std::exp(-q2)) - 1.0));
   EXPECT_LT(worst, 2e-11);
   RecordProperty("worst_relative_error", std::to_string(worst * 1e12) + "e-12");
 }

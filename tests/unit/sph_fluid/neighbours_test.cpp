@@ -7,6 +7,7 @@
 #include <set>
 
 #include "pair_sample.hpp"
+#include "sph_fluid/fluid.hpp"
 
 namespace undex::sph::testing {
 namespace {
@@ -88,8 +89,8 @@ Sample make(const Case& c) {
       }
       n.normalize();
       const double slip = c.wall == 1 ? 1.0 : c.wall == 2 ? 0.0 : double(k % 2);
-      sample.walls.push_back({x[0], x[1], x[2], v[0], v[1], v[2], n[0], n[1], n[2],
-                              std::pow(dx, c.dimension) * dice.between(0.5, 1.5), slip, 0.0});
+      const double volume = std::pow(dx, c.dimension) * dice.between(0.5, 1.5);
+      sample.walls.push_back({{v[0], v[1], v[2], n[0], n[1], n[2], volume, slip}, x[0], x[1], x[2]});
     }
   return sample;
 }
@@ -151,16 +152,64 @@ TEST(PairLoops, InstructionSetsAgree) {
   }
 }
 
+/// Bit for bit: the order of every sum depends on the particles alone.
+TEST(PairLoops, ThreadsDoNotChangeASum) {
+  for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann}) {
+    Dice dice(11);
+    Sample sample;
+    sample.scheme = scheme;
+    sample.mirror[1] = true;
+    const double dx = 0.03;
+    for (const bool gas : {false, true}) {
+      Set set{{}, gas, 2 * dx};
+      for (int k = 0; k < 4000; ++k)
+        set.particles.push_back(random_particle(dice, {dice.between(0, 0.5), dice.between(0, 0.9), dice.between(0, 0.8)}, 3,
+                                                1.5 * dx, dx, 1000, 1e8, 1500));
+      sample.sets.push_back(set);
+    }
+    for (int k = 0; k < 300; ++k)
+      sample.walls.push_back({{1, 2, 3, 0, 0, 1, dx * dx * dx, double(k % 2)},
+                              dice.between(0, 0.5), dice.between(0, 0.9), dice.between(0.78, 0.84)});
+    sample.threads = 1;
+    const Result one = run(sample);
+    for (const int threads : {2, 3, 7}) {
+      sample.threads = threads;
+      const Result many = run(sample);
+      EXPECT_EQ(many.interactions, one.interactions);
+      for (std::size_t i = 0; i < one.rates.size(); ++i) {
+        ASSERT_EQ(many.rates[i].a, one.rates[i].a) << i;
+        ASSERT_EQ(many.rates[i].compression, one.rates[i].compression);
+        ASSERT_EQ(many.rates[i].heat, one.rates[i].heat);
+        ASSERT_EQ(many.rates[i].closing, one.rates[i].closing);
+      }
+      for (std::size_t k = 0; k < one.wall_forces.size(); ++k) ASSERT_EQ(many.wall_forces[k].a, one.wall_forces[k].a) << k;
+    }
+  }
+}
+
+/// In mixed precision the sums are those of the full one to single precision.
+TEST_P(PairLoop, MixedPrecisionIsSinglePrecise) {
+  Sample sample = make(GetParam());
+  const Result wanted = brute_force(sample, run(sample));
+  sample.precision = Precision::mixed;
+  for (const char* level : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    SCOPED_TRACE(level);
+    const AtLevel at(level);
+    Result got = run(sample);
+    EXPECT_NEAR(double(got.interactions), double(wanted.interactions), 2e-4 * double(wanted.interactions) + 2);
+    got.interactions = wanted.interactions;  // a neighbour on the support's edge may fall on either side
+    expect_same(got, wanted, 2e-5);
+  }
+}
+
 TEST(PairLoops, LevelIsWhatWasAskedFor) {
   {
     const AtLevel at("x86-64-v2");
-    EXPECT_STREQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).cpu_level, "x86-64-v2");
-    EXPECT_EQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).lanes, 2);
+    EXPECT_STREQ(cpu_level(), "x86-64-v2");
   }
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     const AtLevel at("x86-64-v3");
-    EXPECT_STREQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).cpu_level, "x86-64-v3");
-    EXPECT_EQ(pair_loops(KernelName::gaussian, SchemeName::monaghan).lanes, 4);
+    EXPECT_STREQ(cpu_level(), "x86-64-v3");
   }
 }
 
@@ -190,14 +239,14 @@ TEST(PairLoops, CountsTheNeighboursOfAKdTree) {
   sample.sets.push_back(set);
 
   Cloud cloud;
-  for (const PackedParticle& q : set.particles) {
+  for (const Particle& q : set.particles) {
     cloud.points.push_back(place(q));
     cloud.points.push_back(place(mirrored(q, 1)));
   }
   Tree tree(3, cloud);
   tree.buildIndex();
   long long wanted = 0;
-  for (const PackedParticle& q : set.particles) {
+  for (const Particle& q : set.particles) {
     std::vector<std::pair<unsigned, double>> found;
     const double at[3] = {q.x, q.y, q.z};
     wanted += (long long)(tree.radiusSearch(at, 4 * h * h, found, nanoflann::SearchParams())) - 1;
@@ -306,29 +355,84 @@ TEST(CellList, RefusesPositionsThatAreNotFinite) {
   EXPECT_THROW(cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 50, 0.1), std::domain_error);
 }
 
-TEST(CellList, ClustersCoverEveryParticleOnce) {
-  const Points p = scatter(3000);
-  CellList cells;
-  cells.build(p.x.data(), p.y.data(), p.z.data(), 0, 3000, 0.1);
-  const CellGrid grid = cells.view();
-  for (const int lanes : {2, 4, 8}) {
-    std::vector<Cluster> clusters;
-    cells.append_clusters(lanes, 3, clusters);
-    std::uint32_t next = 0;
-    for (const Cluster& cluster : clusters) {
-      EXPECT_EQ(cluster.begin, next);
-      EXPECT_EQ(cluster.group, 3);
-      EXPECT_GE(cluster.count, 1);
-      EXPECT_LE(cluster.count, lanes);
-      next += cluster.count;
-      // None across the end of a row.
-      for (std::size_t row = 0; row < std::size_t(grid.count[1]) * grid.count[2]; ++row) {
-        const std::uint32_t end = grid.start[(row + 1) * grid.count[0]];
-        EXPECT_FALSE(cluster.begin < end && cluster.begin + cluster.count > end);
+// ---- The blocks ----------------------------------------------------------------------------------------------------
+
+/// Two groups of unlike cells, in blocks.
+struct Blocks {
+  Points points = scatter(3000);
+  CellList cells[2];
+  std::vector<GroupView> groups;
+  BlockOrder order;
+  PairInput in{};
+
+  explicit Blocks(double reach) {
+    cells[0].build(points.x.data(), points.y.data(), points.z.data(), 0, 2000, 0.1);
+    cells[1].build(points.x.data(), points.y.data(), points.z.data(), 2000, 3000, 0.17);
+    groups = {{0, 2000, cells[0].view(), 0.1, false, false}, {2000, 3000, cells[1].view(), 0.17, true, true}};
+    // Into the cells' order.
+    Points sorted = points;
+    for (int g = 0; g < 2; ++g)
+      for (std::size_t k = 0; k < cells[g].order().size(); ++k) {
+        const std::uint32_t from = cells[g].order()[k], to = groups[g].begin + std::uint32_t(k);
+        sorted.x[to] = points.x[from];
+        sorted.y[to] = points.y[from];
+        sorted.z[to] = points.z[from];
       }
-    }
-    EXPECT_EQ(next, 3000u);
+    points = sorted;
+    order.build(groups, reach);
+    order.describe(in);
   }
+};
+
+TEST(Blocks, ClustersCoverEveryParticleOnce) {
+  const Blocks b(0.2);
+  std::vector<int> seen(3000, 0);
+  std::uint32_t next = 0;
+  for (std::uint32_t k = 0; k < b.in.blocks[b.in.block_count - 1].end; ++k) {
+    const Cluster& cluster = b.in.clusters[k];
+    const GroupView& group = b.groups[cluster.group];
+    EXPECT_GE(cluster.count, 1);
+    EXPECT_LE(cluster.count, cluster_size);
+    EXPECT_GE(cluster.begin, group.begin);
+    EXPECT_LE(cluster.begin + cluster.count, group.end);
+    for (int l = 0; l < cluster.count; ++l) ++seen[cluster.begin + l];
+    // None across the end of a row.
+    for (std::size_t row = 0; row < std::size_t(group.grid.count[1]) * group.grid.count[2]; ++row) {
+      const std::uint32_t end = group.grid.start[(row + 1) * group.grid.count[0]];
+      EXPECT_FALSE(cluster.begin < end && cluster.begin + cluster.count > end);
+    }
+  }
+  for (const int times : seen) EXPECT_EQ(times, 1);
+  for (std::uint32_t k = 0; k < b.in.block_count; ++k) {
+    EXPECT_EQ(b.in.blocks[k].begin, next);
+    EXPECT_EQ(b.in.rank[std::size_t(b.in.blocks[k].iz) * b.in.columns_y + b.in.blocks[k].iy], k);
+    next = b.in.blocks[k].end;
+  }
+}
+
+/// Whatever lies within reach of two blocks at once lies in blocks less than three columns apart: those wait for each other.
+TEST(Blocks, ThreeColumnsApartShareNoParticle) {
+  const double reach = 0.2;
+  const Blocks b(reach);
+  ASSERT_GE(b.in.columns_y, 4);
+  for (std::uint32_t m = 0; m < b.in.block_count; ++m)
+    for (std::uint32_t n = 0; n < m; ++n) {
+      if (std::abs(b.in.blocks[m].iy - b.in.blocks[n].iy) < 3 && std::abs(b.in.blocks[m].iz - b.in.blocks[n].iz) < 3) continue;
+      double nearest = 1e300;
+      for (int axis = 1; axis < 3; ++axis) {
+        const std::vector<double>& at = axis == 1 ? b.points.y : b.points.z;
+        double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+        for (const auto& [block, side] : {std::pair{m, 0}, std::pair{n, 1}})
+          for (std::uint32_t k = b.in.blocks[block].begin; k < b.in.blocks[block].end; ++k)
+            for (int l = 0; l < b.in.clusters[k].count; ++l) {
+              low[side] = std::min(low[side], at[b.in.clusters[k].begin + l]);
+              high[side] = std::max(high[side], at[b.in.clusters[k].begin + l]);
+            }
+        const double gap = std::max(low[0] - high[1], low[1] - high[0]);
+        nearest = axis == 1 ? gap : std::max(nearest, gap);
+      }
+      EXPECT_GT(nearest, 2 * reach);
+    }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // mirrored images written out, scalar arithmetic, formulas taken from the paper and not from the code under test.
 #pragma once
 
+#include <omp.h>
+
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "core/vector.hpp"
+#include "sph_fluid/blocks.hpp"
 #include "sph_fluid/cell_list.hpp"
 #include "sph_fluid/pair_loop.hpp"
 
@@ -31,9 +34,17 @@ class AtLevel {
   std::string before_;
 };
 
+/// A fluid particle and a wall's, each with its place.
+struct Particle : FluidRow {
+  double x = 0, y = 0, z = 0;
+};
+struct WallParticle : WallRow {
+  double x = 0, y = 0, z = 0;
+};
+
 /// Particles of one body.
 struct Set {
-  std::vector<PackedParticle> particles;
+  std::vector<Particle> particles;
   bool variable_h = false;
   double cell_width = 1.0;  ///< [m]
 };
@@ -42,10 +53,12 @@ struct Sample {
   int dimension = 3;
   KernelName kernel = KernelName::wendland_c2;
   SchemeName scheme = SchemeName::monaghan;
+  Precision precision = Precision::full;
+  int threads = 0;  ///< 0: as many as there are
   double alpha = 1.0, beta = 10.0;
   bool mirror[3] = {false, false, false};
   std::vector<Set> sets;
-  std::vector<PackedWall> walls;
+  std::vector<WallParticle> walls;
 };
 
 /// Rates of one particle, or the force on one wall particle in `a`.
@@ -58,49 +71,51 @@ struct Rate {
 
 /// What the pair loops made of a sample, in the order in which the cells put the particles.
 struct Result {
-  std::vector<PackedParticle> particles;
-  std::vector<PackedWall> walls;
-  std::vector<PackedGradient> gradients;  ///< of schemes that reconstruct
+  std::vector<Particle> particles;
+  std::vector<WallParticle> walls;
+  std::vector<GradientRow> gradients;  ///< of schemes that reconstruct
   std::vector<Rate> rates, wall_forces;
   long long interactions = 0;
 };
 
 inline Result run(const Sample& sample) {
-  const PairLoops loops = pair_loops(sample.kernel, sample.scheme);
+  const PairLoops loops = pair_loops(sample.kernel, sample.scheme, sample.precision);
   Result result;
   std::vector<double> x, y, z;
   std::vector<GroupView> groups;
-  std::vector<Cluster> clusters;
   std::vector<CellList> cells(sample.sets.size());
-  std::vector<PackedParticle> all;
+  std::vector<Particle> all;
   for (const Set& set : sample.sets) all.insert(all.end(), set.particles.begin(), set.particles.end());
-  for (const PackedParticle& q : all) {
+  for (const Particle& q : all) {
     x.push_back(q.x);
     y.push_back(q.y);
     z.push_back(q.z);
   }
   std::uint32_t begin = 0;
+  double h_largest = 0;
   for (std::size_t g = 0; g < sample.sets.size(); ++g) {
     const Set& set = sample.sets[g];
     const std::uint32_t end = begin + std::uint32_t(set.particles.size());
     cells[g].build(x.data(), y.data(), z.data(), begin, end, set.cell_width);
     for (const std::uint32_t k : cells[g].order()) result.particles.push_back(all[k]);
     double h_max = 0;
-    for (const PackedParticle& q : set.particles) h_max = std::max(h_max, q.h);
-    cells[g].append_clusters(loops.lanes, std::uint16_t(g), clusters);
-    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h});
+    for (const Particle& q : set.particles) h_max = std::max(h_max, q.h);
+    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h, set.variable_h});
+    h_largest = std::max(h_largest, h_max);
     begin = end;
   }
   const std::size_t n = all.size(), m = sample.walls.size();
+  std::vector<FluidRow> rows(n);
   for (std::size_t i = 0; i < n; ++i) {
     x[i] = result.particles[i].x;
     y[i] = result.particles[i].y;
     z[i] = result.particles[i].z;
+    rows[i] = result.particles[i];
   }
   std::vector<double> wx(m), wy(m), wz(m);
+  std::vector<WallRow> wall_rows;
   CellList wall_cells;
-  std::vector<Cluster> wall_clusters;
-  const auto spread = [&](const std::vector<PackedWall>& walls) {
+  const auto spread = [&](const std::vector<WallParticle>& walls) {
     for (std::size_t k = 0; k < m; ++k) {
       wx[k] = walls[k].x;
       wy[k] = walls[k].y;
@@ -112,68 +127,66 @@ inline Result run(const Sample& sample) {
     wall_cells.build(wx.data(), wy.data(), wz.data(), 0, std::uint32_t(m), sample.sets.at(0).cell_width);
     for (const std::uint32_t k : wall_cells.order()) result.walls.push_back(sample.walls[k]);
     spread(result.walls);
-    wall_cells.append_clusters(loops.lanes, 0, wall_clusters);
+    wall_rows.assign(result.walls.begin(), result.walls.end());
   }
 
-  std::vector<Scratch> scratch(64);
+  BlockOrder blocks;
+  blocks.build(groups, loops.support * h_largest);
+  const int threads = sample.threads > 0 ? sample.threads : omp_get_max_threads();
+  std::vector<Scratch> scratch(threads);
   PairInput in{};
   in.dimension = sample.dimension;
   in.x = x.data();
   in.y = y.data();
   in.z = z.data();
-  in.packed = result.particles.data();
+  in.fluid = rows.data();
+  result.gradients.resize(loops.needs_gradients ? n + 1 : 0);
+  in.gradient = result.gradients.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
-  in.walls = result.walls.data();
   in.wall_x = wx.data();
   in.wall_y = wy.data();
   in.wall_z = wz.data();
+  in.wall = wall_rows.data();
   if (m > 0) in.wall_grid = wall_cells.view();
   in.wall_count = std::uint32_t(m);
   for (int a = 0; a < 3; ++a) in.mirror[a] = sample.mirror[a];
   in.alpha = sample.alpha;
   in.beta = sample.beta;
-  result.gradients.resize(loops.needs_gradients ? n : 0);
-  in.gradients = result.gradients.data();
-  in.clusters = clusters.data();
-  in.cluster_count = std::uint32_t(clusters.size());
+  blocks.describe(in);
   in.scratch = scratch.data();
 
-  std::vector<double> ax(n), ay(n), az(n), compression(n), heat(n), closing(n), fx(m), fy(m), fz(m);
-  std::vector<long long> interactions(clusters.size());
-  loops.fluid_rates(in, {ax.data(), ay.data(), az.data(), compression.data(), heat.data(), closing.data(),
-                         interactions.data()});
-  if (m > 0)
-    loops.wall_forces(in, wall_clusters.data(), std::uint32_t(wall_clusters.size()), {fx.data(), fy.data(), fz.data()});
-  for (Scratch& s : scratch) {
-    std::free(s.near);
-    std::free(s.variable);
-    std::free(s.near_gradient);
-    std::free(s.variable_gradient);
-    std::free(s.wall);
-    std::free(s.index);
-  }
+  std::vector<SumRow> sums(n);
+  std::vector<ForceRow> forces(m);
+  std::vector<long long> interactions(blocks.block_count());
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  loops.rates(in, {sums.data(), m > 0 ? forces.data() : nullptr, interactions.data()});
+  omp_set_num_threads(before);
+  for (Scratch& s : scratch) release(s);
+  if (loops.needs_gradients) result.gradients.pop_back();
   for (std::size_t i = 0; i < n; ++i) {
+    const double specific = 1.0 / rows[i].rho;
     Rate rate;
-    rate.a = {ax[i], ay[i], az[i]};
-    rate.compression = compression[i];
-    rate.heat = heat[i];
-    rate.closing = closing[i];
+    rate.a = specific * Vec3(sums[i].fx, sums[i].fy, sums[i].fz);
+    rate.compression = sums[i].compression;
+    rate.heat = specific * sums[i].heat;
+    rate.closing = sums[i].closing;
     result.rates.push_back(rate);
   }
-  for (std::size_t k = 0; k < m; ++k) {
+  for (const ForceRow& f : forces) {
     Rate force;
-    force.a = {fx[k], fy[k], fz[k]};
+    force.a = {f.fx, f.fy, f.fz};
     result.wall_forces.push_back(force);
   }
   for (const long long count : interactions) result.interactions += count;
   return result;
 }
 
-inline Vec3 place(const PackedParticle& q) { return {q.x, q.y, q.z}; }
-inline Vec3 place(const PackedWall& q) { return {q.x, q.y, q.z}; }
-inline Vec3 speed(const PackedParticle& q) { return {q.vx, q.vy, q.vz}; }
-inline Vec3 speed(const PackedWall& q) { return {q.vx, q.vy, q.vz}; }
+inline Vec3 place(const Particle& q) { return {q.x, q.y, q.z}; }
+inline Vec3 place(const WallParticle& q) { return {q.x, q.y, q.z}; }
+inline Vec3 speed(const Particle& q) { return {q.vx, q.vy, q.vz}; }
+inline Vec3 speed(const WallParticle& q) { return {q.vx, q.vy, q.vz}; }
 
 /// (dW/dr)/r of the kernel named, from its formula.
 inline double reference_gradient(KernelName kernel, double r, double h, int d) {
@@ -214,7 +227,7 @@ Item mirrored(const Item& original, int image) {
   q.vx *= sx;
   q.vy *= sy;
   q.vz *= sz;
-  if constexpr (std::is_same_v<Item, PackedWall>) {
+  if constexpr (std::is_same_v<Item, WallParticle>) {
     q.nx *= sx;
     q.ny *= sy;
     q.nz *= sz;
@@ -229,17 +242,17 @@ inline bool has_image(const Sample& s, int image) {
 }
 
 /// What wall particle w does to fluid particle i: the fluid's own state mirrored at the wall's motion.
-inline void add_wall(const Sample& s, const PackedParticle& i, const PackedWall& w, Rate& sum, double gradient) {
+inline void add_wall(const Sample& s, const Particle& i, const WallParticle& w, Rate& sum, double gradient) {
   const Vec3 x = place(i) - place(w), u = speed(i) - speed(w), n(w.nx, w.ny, w.nz);
   const Vec3 across = w.slip > 0.5 ? Vec3(x.dot(n) * n) : x;
   const double approach = 2.0 * u.dot(across);
   const double Pi = reference_viscosity(s, approach, x.squaredNorm(), i.h, i.c, i.rho);
-  const double mass = i.rho * w.V;
+  const double mass = i.rho * w.volume;
   const Vec3 pull = -mass * (2.0 * i.p / (i.rho * i.rho) + Pi) * gradient * across;
   sum.a += pull;
   sum.size += pull.cwiseAbs();
-  sum.compression += w.V * gradient * approach;
-  sum.compression_size += std::abs(w.V * gradient * approach);
+  sum.compression += w.volume * gradient * approach;
+  sum.compression_size += std::abs(w.volume * gradient * approach);
   sum.heat += 0.5 * mass * Pi * gradient * approach;
   sum.heat_size += std::abs(0.5 * mass * Pi * gradient * approach);
   sum.closing = std::max(sum.closing, std::max(0.0, -i.h * approach / (x.squaredNorm() + 0.01 * i.h * i.h)));
@@ -259,31 +272,31 @@ inline Result brute_force(const Sample& s, const Result& order) {
     return scale * shape / std::pow(h, s.dimension + 2);
   };
   for (std::size_t k = 0; k < order.particles.size(); ++k) {
-    const PackedParticle& i = order.particles[k];
+    const Particle& i = order.particles[k];
     Rate sum;
     for (int image = 0; image < 8; ++image) {
       if (!has_image(s, image)) continue;
       for (std::size_t l = 0; l < order.particles.size(); ++l) {
         if (l == k && image == 0) continue;
-        const PackedParticle j = mirrored(order.particles[l], image);
+        const Particle j = mirrored(order.particles[l], image);
         const double h = 0.5 * (i.h + j.h);
         const Vec3 x = place(i) - place(j), v = speed(i) - speed(j);
         const double r = x.norm();
         if (r >= support * h) continue;
         ++result.interactions;
-        const double F = gradient(r, h), approach = v.dot(x), mass = j.rho * j.V;
+        const double F = gradient(r, h), approach = v.dot(x), mass = j.rho * j.volume;
         const double Pi = reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
         const Vec3 push = -mass * ((i.p + j.p) / (i.rho * j.rho) + Pi) * F * x;
         sum.a += push;
         sum.size += push.cwiseAbs();
-        sum.compression += j.V * F * approach;
-        sum.compression_size += std::abs(j.V * F * approach);
+        sum.compression += j.volume * F * approach;
+        sum.compression_size += std::abs(j.volume * F * approach);
         sum.heat += 0.5 * mass * Pi * F * approach;
         sum.heat_size += std::abs(0.5 * mass * Pi * F * approach);
         sum.closing = std::max(sum.closing, std::max(0.0, -h * approach / (r * r + 0.01 * h * h)));
       }
-      for (const PackedWall& wall : order.walls) {
-        const PackedWall w = mirrored(wall, image);
+      for (const WallParticle& wall : order.walls) {
+        const WallParticle w = mirrored(wall, image);
         const double r = (place(i) - place(w)).norm();
         if (r >= support * i.h) continue;
         ++result.interactions;
@@ -296,14 +309,14 @@ inline Result brute_force(const Sample& s, const Result& order) {
     Rate force;
     for (int image = 0; image < 8; ++image) {
       if (!has_image(s, image)) continue;
-      for (const PackedParticle& particle : order.particles) {
-        const PackedParticle i = mirrored(particle, image);
+      for (const Particle& particle : order.particles) {
+        const Particle i = mirrored(particle, image);
         const double r = (place(i) - place(order.walls[k])).norm();
         if (r >= support * i.h) continue;
         Rate one;
         add_wall(s, i, order.walls[k], one, gradient(r, i.h));
-        force.a -= i.rho * i.V * one.a;
-        force.size += i.rho * i.V * one.size;
+        force.a -= i.rho * i.volume * one.a;
+        force.size += i.rho * i.volume * one.size;
       }
     }
     result.wall_forces[k] = force;
@@ -322,9 +335,9 @@ class Dice {
 };
 
 /// One particle with a random state about rho0, p0 and c0.
-inline PackedParticle random_particle(Dice& dice, const Vec3& x, int dimension, double h, double dx, double rho0, double p0,
+inline Particle random_particle(Dice& dice, const Vec3& x, int dimension, double h, double dx, double rho0, double p0,
                                       double c0) {
-  PackedParticle q{};
+  Particle q{};
   q.x = x[0];
   q.y = x[1];
   q.z = x[2];
@@ -334,7 +347,7 @@ inline PackedParticle random_particle(Dice& dice, const Vec3& x, int dimension, 
   q.p = p0 * dice.between(-0.2, 1);
   q.rho = rho0 * dice.between(0.8, 1.2);
   q.c = c0 * dice.between(0.8, 1.2);
-  q.V = std::pow(dx, dimension) * dice.between(0.8, 1.2);
+  q.volume = std::pow(dx, dimension) * dice.between(0.8, 1.2);
   q.h = h;
   return q;
 }
