@@ -17,6 +17,8 @@ packages=(
   nlohmann-json3-dev     # summary.json
   libgtest-dev           # tests
   libnanoflann-dev       # tests: an independent neighbour search to check ours against
+  libbenchmark-dev       # bench/: Google Benchmark
+  valgrind               # tests: counts the instructions of a step
   python3                # scripts/plot.py
   python3-numpy          # scripts/plot.py
   python3-matplotlib     # scripts/plot.py

@@ -1,0 +1,87 @@
+// The block of water that the benchmarks and the instruction counts step: a cube full of particles between six rigid
+// slip walls, on a jittered lattice, with a weak standing wave in it. Everything that a run of water does happens
+// (particles change cells, every wall is felt, limiters act); nothing is so violent that the cost would change with time.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "sph_fluid/fluid.hpp"
+
+namespace undex::bench {
+
+/// A way to compute: the parts of the name and what they set.
+struct Variant {
+  std::string name;          ///< "riemann/wendland_c2_1.5"
+  sph::Numerics numerics;
+};
+
+/// Every combination of the axes below. A further axis is one more entry; a choice without a name leaves the names alone,
+/// so that what is compared by name (recorded counts, old results) stays comparable.
+inline std::vector<Variant> variants() {
+  using sph::KernelName, sph::Numerics, sph::SchemeName;
+  struct Choice {
+    const char* name;
+    void (*set)(Numerics&);
+  };
+  static const std::vector<std::vector<Choice>> axes = {
+      {{"monaghan", [](Numerics& n) { n.scheme = SchemeName::monaghan; }},
+       {"riemann", [](Numerics& n) { n.scheme = SchemeName::riemann; }}},
+      {{"gaussian_1.2", [](Numerics& n) { n.kernel = KernelName::gaussian, n.eta = 1.2; }},
+       {"wendland_c2_1.3", [](Numerics& n) { n.kernel = KernelName::wendland_c2, n.eta = 1.3; }},
+       {"wendland_c2_1.5", [](Numerics& n) { n.kernel = KernelName::wendland_c2, n.eta = 1.5; }}},
+  };
+  std::vector<Variant> all = {{}};
+  for (const std::vector<Choice>& axis : axes) {
+    std::vector<Variant> longer;
+    for (const Variant& variant : all)
+      for (const Choice& choice : axis) {
+        Variant next = variant;
+        if (!next.name.empty() && *choice.name != '\0') next.name += '/';
+        next.name += choice.name;
+        choice.set(next.numerics);
+        longer.push_back(next);
+      }
+    all = longer;
+  }
+  return all;
+}
+
+/// A cube of about `particles` particles, 1 mm apart.
+inline sph::Settings block(const sph::Numerics& numerics, double particles, int threads) {
+  constexpr double spacing = 1e-3;      // [m]
+  constexpr double pressure = 1e7;      // [Pa], of the water at rest: the wave's troughs do not cavitate
+  constexpr double amplitude = 5e-4;    // of the wave's density: about 1.2 MPa
+  const double side = spacing * std::round(std::cbrt(particles));
+  const Box cube{Vec3::Zero(), Vec3::Constant(side)};
+  const materials::Fluid water = materials::find_fluid("water-tait").value();
+  const double density = materials::density_at(water.law, pressure, 0.0);
+
+  sph::StartField wave;
+  wave.state = [=](const Vec3& x, double) {
+    const double phase = 2.0 * std::numbers::pi / side;
+    return sph::StartState{density * (1.0 + amplitude * std::cos(phase * x[0])), 0.0, Vec3::Zero()};
+  };
+  wave.mass = density * side * side * side;
+
+  sph::Wall wall;
+  wall.name = "box";
+  wall.container = cube;
+  for (const char* face : {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"})
+    wall.faces[face] = sph::FaceCondition::free_slip;
+
+  sph::Settings settings;
+  settings.lattice.spacing = spacing;
+  settings.lattice.jitter = 0.05;
+  settings.bodies = {{"water", Shape{cube, {}}, water, {}, Vec3::Zero(), {}, {}, {}, {}, false,
+                      std::make_shared<const sph::StartField>(wave)}};
+  settings.walls = {wall};
+  settings.numerics = numerics;
+  settings.numerics.threads = threads;
+  return settings;
+}
+
+}  // namespace undex::bench
