@@ -78,6 +78,11 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
     record.wall_particles = std::int64_t(fluid->wall_particle_count());
     record.particle_updates = record.particles * record.steps;
     record.neighbour_interactions = fluid->neighbour_interactions();
+    const sph::Clamps clamps = fluid->clamps();
+    record.clamps = {{"density", clamps.density},
+                     {"smoothing", clamps.smoothing},
+                     {"filling", clamps.filling},
+                     {"energy", clamps.energy}};
   }
   if (simulation.structure()) record.cells = std::int64_t(simulation.structure()->cell_count());
   record.peak_memory_bytes = output::peak_memory_bytes();

@@ -41,6 +41,8 @@ std::string to_json(const RunRecord& record) {
   json["energy_error"] = record.energy_error;
   if (record.interface_energy_error) json["interface_energy_error"] = *record.interface_energy_error;
   if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;
+  json["clamps"] = nlohmann::ordered_json::object();
+  for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   json["passes"] = object(record.passes);
   json["metrics"] = object(record.metrics);
   // Text from outside (a scene's name, a message) may not be UTF-8: replace rather than lose the record of the run.

@@ -31,6 +31,7 @@ struct RunRecord {
   std::optional<double> interface_energy_error;                  ///< coupled runs only
   std::optional<double> interface_impulse_error;                 ///< the same
   std::string program;                        ///< version text; left out when empty
+  std::vector<std::pair<std::string, std::int64_t>> clamps;      ///< how often each floor or bound acted
   NamedNumbers passes;                        ///< seconds per named pass
   NamedNumbers metrics;                       ///< results of the scene's comparison
 };

@@ -278,8 +278,8 @@ struct Fluid::Implementation {
     const double low = settings.numerics.h_low, high = settings.numerics.h_high;
     const bool burning = group.body->burn.has_value();
     double h_max = variable ? 0.0 : group.h0;
-    long held = 0;
-#pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held)
+    long held = 0, empty = 0;
+#pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held, empty)
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
       const SumRow& rate = p.rate[i];
       const EarlierRates& earlier = p.earlier[i];
@@ -314,8 +314,10 @@ struct Fluid::Implementation {
         held += wanted < low || wanted > high;
         q.h *= std::clamp(wanted, low, high);
         h_max = std::max(h_max, q.h);
+        empty += energy < 0.0;
       }
     }
+    clamps.energy += empty;
     clamps.smoothing += held;
     group.h_max = h_max;
   }
@@ -399,6 +401,13 @@ struct Fluid::Implementation {
     const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), interactions.data()};
     loops.rates(in, out);
     for (const long long count : interactions) interaction_sum += count;
+    if (!loops.needs_gradients) return;
+    long held = 0;
+    for (const GroupView& group : views)
+      if (group.gas)
+#pragma omp parallel for schedule(static) reduction(+ : held)
+        for (std::uint32_t i = group.begin; i < group.end; ++i) held += particles.gradient[i].filling <= least_filling;
+    clamps.filling += held;
   }
 
   /// Rates per mass from the sums per volume. Where there is an energy field, its rate is the viscous heat plus the

@@ -63,8 +63,10 @@ struct MovingWall {
 
 /// Counts of floors and clamps that acted since the start.
 struct Clamps {
-  long density = 0;        ///< density held at its lower bound
+  long density = 0;        ///< change of density in half a step held at a factor of e
   long smoothing = 0;      ///< smoothing length held at a bound of [h_low, h_high]
+  long filling = 0;        ///< filling held at its lower bound (free surfaces of gas)
+  long energy = 0;         ///< gas with a negative energy, whose sound speed its law may hold at a lower bound
 };
 
 class Fluid {

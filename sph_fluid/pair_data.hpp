@@ -25,7 +25,11 @@ struct alignas(64) FluidRow {
 /// needs: xx, yy, zz, xy, yz, zx) [1/s] and of pressure [Pa/m]. Single precision: they only shape a correction.
 struct GradientRow {
   float strain[6], pressure[3];
+  float filling;  ///< by which the pair rates of gas are divided (riemann_scheme.hpp); 1 in liquids
 };
+
+/// Lower bound of GradientRow::filling. Half is what a plane free surface has.
+inline constexpr float least_filling = 0.5f;
 
 /// What a pair reads of a wall's dummy particle.
 struct alignas(64) WallRow {

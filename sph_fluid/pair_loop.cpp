@@ -241,7 +241,7 @@ class ClusterWork {
       if constexpr (Pass::symmetric) {
         List::template add_row<Sums>(&out_.fluid[me].fx, sums_[l]);
       } else {
-        pass_.store(sums_[l], in_.gradient[me]);
+        pass_.store(sums_[l], own_.gas, in_.gradient[me]);
       }
     }
   }

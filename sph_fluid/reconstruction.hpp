@@ -1,5 +1,6 @@
 // Gradients of velocity and pressure for schemes that reconstruct: first-order exact for any arrangement of neighbours,
-// by the inverse of the moment matrix M = - sum_j V_j x_ij x_ij^T F.
+// by the inverse of the moment matrix M = - sum_j V_j x_ij x_ij^T F. Its trace over the dimension is the filling: 1 where the
+// volumes of the neighbours fill the space they are in, 2 where they claim it twice.
 #pragma once
 
 #include "sph_fluid/fluid_state.hpp"
@@ -68,7 +69,9 @@ struct Reconstruction {
   }
 
   /// Gradients of a particle from its sums, in the order of Sums.
-  void store(const double* s, GradientRow& out) const {
+  void store(const double* s, bool gas, GradientRow& out) const {
+    const float filling = float((s[0] + s[1] + s[2]) / dimension);
+    out.filling = !gas ? 1.0f : filling > least_filling ? filling : least_filling;
     const double xx = s[0], yy = dimension < 2 ? 1.0 : s[1], zz = dimension < 3 ? 1.0 : s[2], xy = s[3], yz = s[4], zx = s[5];
     // Adjugate of the symmetric matrix; where neighbours are too few or in a plane, the uncorrected sum stands.
     double B[3][3] = {{yy * zz - yz * yz, zx * yz - xy * zz, xy * yz - zx * yy},

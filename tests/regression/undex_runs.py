@@ -17,7 +17,7 @@ ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive")
 SUMMARY_KEYS = [
     "scene", "status", "time_s", "steps", "wall_time_s", "cpu_time_s", "threads", "particles", "wall_particles", "cells",
     "particle_updates", "neighbour_interactions", "peak_memory_bytes", "mass_error", "momentum_error", "energy_error",
-    "passes", "metrics",
+    "clamps", "passes", "metrics",
 ]
 
 

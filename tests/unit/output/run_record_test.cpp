@@ -20,6 +20,7 @@ RunRecord sample() {
   record.steps = 1234;
   record.particle_updates = 5'000'000'000;
   record.energy_error = 1e-3;
+  record.clamps = {{"density", 0}, {"smoothing", 5'000'000'000}};
   record.passes = {{"forces", 10.5}, {"neighbours", 3.25}};
   record.metrics = {{"first_peak_pa", 7.2e8}, {"arrival_s", 1.44e-5}, {"collapse_s", std::nan("")}};
   return record;
@@ -29,11 +30,13 @@ TEST(RunRecord, HasEveryPromisedKey) {
   const auto json = nlohmann::json::parse(to_json(sample()));
   for (const char* key : {"scene", "status", "time_s", "steps", "wall_time_s", "cpu_time_s", "threads", "particles",
                           "wall_particles", "cells", "particle_updates", "neighbour_interactions", "peak_memory_bytes",
-                          "mass_error", "momentum_error", "energy_error", "passes", "metrics"})
+                          "mass_error", "momentum_error", "energy_error", "clamps", "passes", "metrics"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_FALSE(json.contains("interface_energy_error"));
   EXPECT_EQ(json["particle_updates"], 5'000'000'000);
   EXPECT_DOUBLE_EQ(json["passes"]["forces"], 10.5);
+  EXPECT_EQ(json["clamps"]["density"], 0);
+  EXPECT_EQ(json["clamps"]["smoothing"], 5'000'000'000);
 }
 
 TEST(RunRecord, CoupledRunsTellTheInterfaceError) {

@@ -238,6 +238,46 @@ TEST(Reconstruction, LinearFieldsAreExact) {
   }
 }
 
+/// Gas whose volumes claim `excess` times the space that it has, in a uniform expansion: where the filling is divided out,
+/// volumes change as the surroundings do and not `excess` times as fast, the one error that would feed on itself.
+TEST(Filling, WrongVolumesExpandAsTheirSurroundings) {
+  for (int d = 1; d <= 3; ++d)
+    for (const double excess : {0.7, 1.0, 3.0, 50.0})
+      for (const bool gas : {true, false}) {
+        Dice dice(3);
+        Sample sample;
+        sample.dimension = d;
+        sample.scheme = SchemeName::riemann;
+        const double dx = 0.1;
+        Set set{{}, gas, 2 * dx};
+        const int n = 15;  // what the middle's neighbours see is whole
+        for (int k = 0; k < (d > 2 ? n : 1); ++k)
+          for (int j = 0; j < (d > 1 ? n : 1); ++j)
+            for (int i = 0; i < n; ++i) {
+              const Vec3 x = dx * Vec3(i, j, k);
+              Particle q = random_particle(dice, x, d, 1.5 * dx, dx, 1, 1, 700);
+              q.vx = 2.0 * x[0];
+              q.vy = 2.0 * x[1];
+              q.vz = 2.0 * x[2];
+              q.p = 1e5;
+              q.rho = 1.0;
+              q.volume = excess * std::pow(dx, d);
+              set.particles.push_back(q);
+            }
+        sample.sets.push_back(set);
+        const Result r = run(sample);
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < r.particles.size(); ++i) {
+          if ((place(r.particles[i]).head(d) - 7 * dx * Vec3::Ones().head(d)).norm() > 0.5 * dx) continue;
+          ++inside;
+          EXPECT_NEAR(r.rates[i].compression, -2.0 * d * (gas ? 1.0 : excess), (gas ? 1e-6 : 0.02 * excess) * 2.0 * d)
+              << d << "D, " << excess;
+        }
+        EXPECT_EQ(inside, 1u);
+      }
+}
+
+
 // ---- Runs ----------------------------------------------------------------------------------------------------------
 
 double total(const Ledger& l) { return l.kinetic + l.internal + l.dissipated + l.wall_work; }
