@@ -191,12 +191,12 @@ class CandidateList {
     }
   }
 
-  /// Adds what the candidates have received to the rows of the particles that they are, mirrored back.
+  /// Adds what candidates begin..real have received to the rows of the particles that they are, mirrored back.
   template <class Sums, class Row>
-  UNDEX_INLINE void hand_out(std::uint32_t real, Row* rows, int image) {
+  UNDEX_INLINE void hand_out(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
     constexpr int length = Sums::count;
     double part[D][length + D];
-    for (std::uint32_t c = 0; c < real; c += D) {
+    for (std::uint32_t c = begin; c < real; c += D) {
       const T* from = block(c / W) + c % W + sum;
       const int count = real - c < std::uint32_t(D) ? int(real - c) : D;
 #pragma GCC unroll 4
@@ -211,10 +211,9 @@ class CandidateList {
       }
       for (int l = 0; l < count; ++l) {
         double* row = &rows[scratch_.index[c + l]].fx;
-        if (image > 0)
-          for (int k = 0; k < length; ++k) row[k] += (image >> k & 1 ? -1.0 : 1.0) * part[l][k];
-        else
-          add_row<Sums>(row, part[l]);
+        for (int axis = 0; image >> axis; ++axis)
+          if (image >> axis & 1) part[l][axis] = -part[l][axis];
+        add_row<Sums>(row, part[l]);
       }
     }
   }

@@ -120,26 +120,37 @@ class ClusterWork {
     kind.gas = own_.gas || other.gas;
     // A pair's h is the mean of two.
     const double reach = Kernel::support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
-    // First what is seen from this side only: images, and the cluster itself.
+    const std::uint32_t next = cluster_.begin + cluster_.count;
+    if (Pass::symmetric && g < cluster_.group) return;  // those pairs are the other cluster's
+    if (Pass::symmetric && g == cluster_.group) {
+      // The cluster with itself and its own images: from one side.
+      list_.size = 0;
+      for_each_image(in_.mirror, box_, reach, [&](int image, const Box3&) {
+        const std::uint32_t begin = list_.size;
+        list_.reserve(begin + cluster_size);
+        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
+        fill(begin, image, reach);
+      });
+      pairs_with<State, Sums, false>(kind);
+    }
+    // All candidates (or, where both sides receive their part, all that come after the cluster) and their images. Seen from
+    // an image, i is an image too: what the image receives is mirrored back.
+    struct {
+      std::uint32_t begin, real;
+      int image;
+    } pieces[8];
+    int count = 0;
     list_.size = 0;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       const std::uint32_t begin = list_.size;
-      if (image > 0 || !Pass::symmetric)
-        scan_grid(other.grid, in_.x, in_.y, in_.z, box, reach, 0, list_);
-      else if (g == cluster_.group)
-        for (std::uint32_t k = cluster_.begin; k < cluster_.begin + cluster_.count; ++k)
-          list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
+      scan_grid(other.grid, in_.x, in_.y, in_.z, box, reach, Pass::symmetric ? next : 0, list_);
+      pieces[count++] = {begin, list_.size, image};
       fill(begin, image, reach);
     });
-    pairs_with<State, Sums, false>(kind);
-    if (!Pass::symmetric || g < cluster_.group) return;
-    // Then every particle that comes after the cluster: both sides at once.
-    list_.size = 0;
-    scan_grid(other.grid, in_.x, in_.y, in_.z, box_, reach, cluster_.begin + cluster_.count, list_);
-    const std::uint32_t real = list_.size;
-    fill(0, 0, reach);
-    pairs_with<State, Sums, true>(kind);
-    list_.template hand_out<Sums>(real, out_.fluid, 0);
+    pairs_with<State, Sums, Pass::symmetric>(kind);
+    if constexpr (Pass::symmetric)
+      for (int k = 0; k < count; ++k)
+        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, out_.fluid, pieces[k].image);
   }
 
   void with_walls() {
@@ -155,7 +166,7 @@ class ClusterWork {
       list_.template fill_rows<List::state>(0, in_.wall, image);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
-        list_.template hand_out<WallSums<V>>(real, out_.wall, image);
+        list_.template hand_out<WallSums<V>>(0, real, out_.wall, image);
       } else {
         pairs_with<Wall, WallSums<V>, false>(kind);
       }
@@ -174,7 +185,7 @@ class ClusterWork {
 
   template <class Other, class OtherSums, bool two_sided>
   void pairs_with(const PairKind& kind) {
-    if constexpr (two_sided && Pass::symmetric)
+    if constexpr (two_sided)
       for (std::uint32_t b = 0; b < list_.blocks(); ++b)
         for (int k = 0; k < OtherSums::count; ++k) store(list_.block(b) + List::sum + k * W, V{});
     if (list_.size == 0) return;
@@ -222,26 +233,31 @@ class ClusterWork {
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
     }
     (two_sided && !same_type<Other, Wall> ? seen_twice_ : seen_) += seen;
-    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { add(sums_[l][k], k, sum); });
+    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
   }
 
-  /// Adds the lanes' part of sum k to `held`.
-  static UNDEX_INLINE void add(double& held, int k, V part) {
-    if (Sums::is_maximum(k)) {
-      const double most = maximum_of(part);
-      held = most > held ? most : held;
-    } else {
-      held += sum_of(part);
-    }
-  }
-
+  /// The particles' sums over lanes and candidates, D particles at a time.
   void store_sums() {
-    for (int l = 0; l < cluster_.count; ++l) {
-      const std::uint32_t me = cluster_.begin + l;
+    constexpr int D = lanes<double>;
+    for (int first = 0; first < cluster_.count; first += D) {
+      Vec<double> total[Sums::count];
+#pragma GCC unroll 32
+      for (int k = 0; k < Sums::count; ++k) {
+        Vec<double> part[D];
+#pragma GCC unroll 8
+        for (int l = 0; l < D; ++l)
+          part[l] = Sums::is_maximum(k) ? halved<true>(sums_[first + l][k]) : halved<false>(sums_[first + l][k]);
+        total[k] = Sums::is_maximum(k) ? folded<true>(part) : folded<false>(part);
+      }
+      const int count = cluster_.count - first < D ? cluster_.count - first : D;
       if constexpr (Pass::symmetric) {
-        List::template add_row<Sums>(&out_.fluid[me].fx, sums_[l]);
+        for (int l = 0; l < count; ++l) {
+          double row[Sums::count];
+          for (int k = 0; k < Sums::count; ++k) row[k] = total[k][l];
+          List::template add_row<Sums>(&out_.fluid[cluster_.begin + first + l].fx, row);
+        }
       } else {
-        pass_.store(sums_[l], own_.gas, in_.gradient[me]);
+        pass_.store(total, own_.gas, in_.gradient + cluster_.begin + first, count);
       }
     }
   }
@@ -255,7 +271,7 @@ class ClusterWork {
   Box3 box_;
   double origin_[3];
   double h_cluster_;
-  double sums_[cluster_size][Sums::count] = {};
+  V sums_[cluster_size][Sums::count] = {};
   Mask<T> seen_{}, seen_twice_{};
 };
 

@@ -68,29 +68,33 @@ struct Reconstruction {
         si);
   }
 
-  /// Gradients of a particle from its sums, in the order of Sums.
-  void store(const double* s, bool gas, GradientRow& out) const {
-    const float filling = float((s[0] + s[1] + s[2]) / dimension);
-    out.filling = !gas ? 1.0f : filling > least_filling ? filling : least_filling;
-    const double xx = s[0], yy = dimension < 2 ? 1.0 : s[1], zz = dimension < 3 ? 1.0 : s[2], xy = s[3], yz = s[4], zx = s[5];
+  /// Gradients of up to a vector of particles from their sums, in the order of Sums.
+  void store(const Vec<double>* s, bool gas, GradientRow* out, int count) const {
+    using D = Vec<double>;
+    const D one = broadcast(1.0), half = broadcast(double(least_filling));
+    const D filling = gas ? maximum((s[0] + s[1] + s[2]) * (1.0 / dimension), half) : one;
+    const D xx = s[0], yy = dimension < 2 ? one : s[1], zz = dimension < 3 ? one : s[2], xy = s[3], yz = s[4], zx = s[5];
     // Adjugate of the symmetric matrix; where neighbours are too few or in a plane, the uncorrected sum stands.
-    double B[3][3] = {{yy * zz - yz * yz, zx * yz - xy * zz, xy * yz - zx * yy},
-                      {0.0, xx * zz - zx * zx, xy * zx - xx * yz},
-                      {0.0, 0.0, xx * yy - xy * xy}};
-    const double determinant = xx * B[0][0] + xy * B[0][1] + zx * B[0][2];
-    const bool good = determinant > 0.05;
-    const double inverse = good ? 1.0 / determinant : 0.0;
-    for (int a = 0; a < 3; ++a)
-      for (int b = a; b < 3; ++b) B[a][b] = B[b][a] = good ? B[a][b] * inverse : a == b ? 1.0 : 0.0;
-    double g[3][3];
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b)
-        g[a][b] = s[6 + 3 * a] * B[0][b] + s[7 + 3 * a] * B[1][b] + s[8 + 3 * a] * B[2][b];
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3;
-      out.strain[a] = float(g[a][a]);
-      out.strain[3 + a] = float(0.5 * (g[a][b] + g[b][a]));
-      out.pressure[a] = float(s[15] * B[0][a] + s[16] * B[1][a] + s[17] * B[2][a]);
+    const D a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
+    const D d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
+    const D determinant = xx * a + xy * b + zx * c;
+    const Mask<double> good = determinant > 0.05;
+    const D inverse = 1.0 / (good ? determinant : one);
+    const D B[3][3] = {{good ? a * inverse : one, keep(good, b * inverse), keep(good, c * inverse)},
+                       {keep(good, b * inverse), good ? d * inverse : one, keep(good, e * inverse)},
+                       {keep(good, c * inverse), keep(good, e * inverse), good ? f * inverse : one}};
+    D g[3][3], p[3];
+    for (int r = 0; r < 3; ++r) {
+      for (int q = 0; q < 3; ++q) g[r][q] = s[6 + 3 * r] * B[0][q] + s[7 + 3 * r] * B[1][q] + s[8 + 3 * r] * B[2][q];
+      p[r] = s[15] * B[0][r] + s[16] * B[1][r] + s[17] * B[2][r];
+    }
+    for (int l = 0; l < count; ++l) {
+      for (int r = 0; r < 3; ++r) {
+        out[l].strain[r] = float(g[r][r][l]);
+        out[l].strain[3 + r] = float(0.5 * (g[r][(r + 1) % 3][l] + g[(r + 1) % 3][r][l]));
+        out[l].pressure[r] = float(p[r][l]);
+      }
+      out[l].filling = float(filling[l]);
     }
   }
 };

@@ -132,26 +132,28 @@ _Pragma("GCC unroll 8") for (int a = 0; a < 8; a += 2)
 #undef UNDEX_SWAP
 }
 
-/// Sum or maximum over the lanes.
-#if UNDEX_VECTOR_BYTES == 64
-UNDEX_INLINE double sum_of(Vec<double> a) { return _mm512_reduce_add_pd((__m512d)a); }
-UNDEX_INLINE float sum_of(Vec<float> a) { return _mm512_reduce_add_ps((__m512)a); }
-UNDEX_INLINE double maximum_of(Vec<double> a) { return _mm512_reduce_max_pd((__m512d)a); }
-UNDEX_INLINE float maximum_of(Vec<float> a) { return _mm512_reduce_max_ps((__m512)a); }
-#else
-template <class V>
-UNDEX_INLINE Element<V> sum_of(V a) {
-  Element<V> sum = a[0];
-  for (int l = 1; l < lanes<Element<V>>; ++l) sum += a[l];
-  return sum;
+/// A vector of sums in double, its upper half added to the lower (or the larger of the two) where it was in single.
+template <bool by_maximum>
+UNDEX_INLINE Vec<double> halved(Vec<double> a) {
+  return a;
 }
-template <class V>
-UNDEX_INLINE Element<V> maximum_of(V a) {
-  Element<V> most = a[0];
-  for (int l = 1; l < lanes<Element<V>>; ++l) most = a[l] > most ? a[l] : most;
-  return most;
+template <bool by_maximum>
+UNDEX_INLINE Vec<double> halved(Vec<float> a) {
+  typedef float Half __attribute__((vector_size(UNDEX_VECTOR_BYTES / 2)));
+  Half half[2];
+  __builtin_memcpy(&half, &a, sizeof a);
+  const Vec<double> low = __builtin_convertvector(half[0], Vec<double>), high = __builtin_convertvector(half[1], Vec<double>);
+  return by_maximum ? maximum(low, high) : low + high;
 }
-#endif
+
+/// Lane l of the result is the sum (or maximum) over the lanes of r[l].
+template <bool by_maximum>
+UNDEX_INLINE Vec<double> folded(Vec<double> (&r)[lanes<double>]) {
+  transpose(r);
+#pragma GCC unroll 8
+  for (int l = 1; l < lanes<double>; ++l) r[0] = by_maximum ? maximum(r[0], r[l]) : r[0] + r[l];
+  return r[0];
+}
 
 // 1/a and 1/sqrt(a) for a > 0: an estimate of 14 bits where there is one, and a Newton step of third order (relative
 // error below 1e-12 in double, a rounding or two in float).
