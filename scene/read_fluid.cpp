@@ -66,6 +66,7 @@ void read_scheme(const TableReader& top, Draft& draft) {
   table.read("beta", numerics.beta);
   table.read("courant", numerics.courant);
   table.read("fixed_step", numerics.fixed_step);
+  table.read("signal", numerics.signal);
   table.read("h_low", numerics.h_low);
   table.read("h_high", numerics.h_high);
 }

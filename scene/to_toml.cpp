@@ -302,6 +302,7 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.put("beta", numerics.beta);
   writer.put("courant", numerics.courant);
   writer.put("fixed_step", numerics.fixed_step);
+  writer.put("signal", numerics.signal);
   writer.put("h_low", numerics.h_low);
   writer.put("h_high", numerics.h_high);
   for (const sph::Body& body : fluid.bodies) put_body(writer, body);

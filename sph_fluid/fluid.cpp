@@ -30,6 +30,7 @@ struct Group {
   std::uint32_t begin = 0, end = 0;
   double spacing = 0, h0 = 0;            // [m]
   double h_max = 0;                      // [m], the largest at present
+  double rest_density = 0;               // [kg/m^3], of what no signal has reached
   std::vector<double> lighting;          // burning charges only, by id - begin [s]
   CellList cells;
 };
@@ -65,6 +66,23 @@ double start_energy(const Body& body) {
 
 }  // namespace
 
+/// A box around the particles that are no longer in their first state of rest; it only grows.
+struct Disturbed {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+  void add(const Vec3& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  void add(const Disturbed& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  bool within(const Vec3& x, double margin) const {
+    return ((low.array() - margin) <= x.array()).all() && (x.array() <= (high.array() + margin)).all();
+  }
+};
+
 struct Fluid::Implementation {
   Settings settings;
   PairLoops loops;
@@ -99,6 +117,9 @@ struct Fluid::Implementation {
   double wall_power = 0;                         // work on moving walls at the last evaluation [W]
   long long interaction_sum = 0;
   Clamps clamps;
+  Disturbed disturbed;
+  double reach = 0;                              // largest distance of a pair [m]
+  bool everywhere = true;                        // are all particles worked on, signal or not?
 
   explicit Implementation(const Settings& s) : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme, s.numerics.precision)) {
     threads = s.numerics.threads > 0 ? s.numerics.threads : machine_threads;
@@ -109,6 +130,7 @@ struct Fluid::Implementation {
     fill();
     rigid = line_walls(settings);
     evaluate(0.0, 0.0);
+    watch_for_signals();
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -131,6 +153,7 @@ struct Fluid::Implementation {
       group.spacing = body.spacing.value_or(settings.lattice.spacing);
       group.h0 = group.h_max = smoothing_length(settings, group.spacing);
       const double energy = start_energy(body), rho = start_density(body, energy);
+      group.rest_density = rho;
       for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
         const Vec3& x = bodies[b].position[k];
         particles.x[at] = x[0];
@@ -267,7 +290,9 @@ struct Fluid::Implementation {
                        group.body->variable_h});
       h_max = std::max(h_max, group.h_max);
     }
-    blocks.build(views, loops.support * h_max);
+    reach = loops.support * h_max;
+    blocks.build(views, reach);
+    find_signals();
   }
 
   template <class Law>
@@ -370,8 +395,59 @@ struct Fluid::Implementation {
     walls_packed = true;
   }
 
+  /// After the first evaluation: who is not at rest? Whoever is accelerated, be it by an imbalance of the lattice (rings
+  /// have one, a Cartesian lattice under pressure has none). Where a wall moves or a charge burns, all are worked on.
+  void watch_for_signals() {
+    everywhere = !moving.empty() || settings.numerics.signal <= 0.0;
+    for (const Body& body : settings.bodies) everywhere = everywhere || body.burn.has_value();
+    if (everywhere) return;
+    for (std::uint32_t i = 0; i < particles.size(); ++i) {
+      const SumRow& rate = particles.rate[i];
+      const FluidRow& q = particles.predicted[i];
+      const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
+      // Round-off of the pressure itself, too, is rest.
+      if (std::sqrt(a2) * q.rho * q.h > 1e-10 * std::abs(q.p) + 1e-14 * q.rho * q.c * q.c)
+        disturbed.add({particles.x[i], particles.y[i], particles.z[i]});
+    }
+    find_signals();
+    for (std::uint32_t i = 0; i < particles.size(); ++i)
+      if (!disturbed.within({particles.x[i], particles.y[i], particles.z[i]}, reach)) particles.rate[i] = SumRow{};
+  }
+
+  /// Extends the box of the disturbed by those whose speed or density has left rest by more than the share of the sound
+  /// speed (or of the density) that counts as a signal.
+  void find_signals() {
+    if (everywhere) return;
+    const double signal = settings.numerics.signal;
+    for (const Group& group : groups) {
+      Disturbed found;
+#pragma omp parallel
+      {
+        Disturbed mine;
+#pragma omp for schedule(static)
+        for (std::uint32_t i = group.begin; i < group.end; ++i) {
+          const FluidRow& q = particles.predicted[i];
+          const double v2 = q.vx * q.vx + q.vy * q.vy + q.vz * q.vz, still = signal * q.c;
+          if (v2 > still * still || std::abs(q.rho - group.rest_density) > signal * group.rest_density)
+            mine.add({particles.x[i], particles.y[i], particles.z[i]});
+        }
+#pragma omp critical
+        found.add(mine);
+      }
+      disturbed.add(found);
+    }
+  }
+
   PairInput pair_input() {
     PairInput in{};
+    in.partly = !everywhere;
+    for (int a = 0; a < 3; ++a) {
+      in.disturbed_low[a] = disturbed.low[a];
+      in.disturbed_high[a] = disturbed.high[a];
+    }
+    // Rates are wanted within reach of the box, which takes pairs of particles within reach of those, whose fluxes take
+    // gradients within reach once more.
+    in.margin = loops.needs_gradients ? 3.0 * reach : 2.0 * reach;
     in.dimension = settings.dimension;
     in.x = particles.x.data();
     in.y = particles.y.data();
@@ -415,6 +491,7 @@ struct Fluid::Implementation {
   void finish_rates() {
     const auto timer = timers.measure("integration");
     Particles& p = particles;
+    const bool partly = !everywhere;
     for (const Group& group : groups) {
       const bool with_energy = materials::uses_energy(group.body->material.law);
 #pragma omp parallel for schedule(static)
@@ -427,6 +504,8 @@ struct Fluid::Implementation {
         rate.fz *= specific;
         rate.heat *= specific;
         if (with_energy) rate.heat += q.p * specific * rate.compression;
+        // Beyond reach of any signal only some of the pairs were worked on, and rest is rest.
+        if (partly && !disturbed.within({p.x[i], p.y[i], p.z[i]}, reach)) rate = SumRow{};
       }
     }
   }
@@ -762,6 +841,7 @@ int Fluid::add_moving_wall(MovingWall wall) {
   wall.impulse.assign(wall.position.size(), Vec3::Zero());
   self_->moving_force.emplace_back(wall.position.size(), Vec3::Zero());
   self_->moving.push_back(std::move(wall));
+  self_->everywhere = true;
   self_->evaluated = false;
   return int(self_->moving.size()) - 1;
 }

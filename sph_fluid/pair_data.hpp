@@ -110,6 +110,8 @@ struct PairInput {
   std::uint32_t wall_count;
   bool mirror[3];                      ///< symmetry planes through the origin
   double alpha, beta;                  ///< Monaghan's viscosity
+  bool partly;                         ///< only clusters within `margin` of the box are worked on
+  double disturbed_low[3], disturbed_high[3], margin;  ///< [m]
   const Cluster* clusters;             ///< sorted by block
   const Block* blocks;                 ///< in the order of work
   std::uint32_t block_count;

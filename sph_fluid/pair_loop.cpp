@@ -102,6 +102,7 @@ class ClusterWork {
 
   /// Returns the number of true neighbours met, directed.
   long long run() {
+    if (out_of_reach()) return 0;
     for (int g = 0; g < in_.group_count; ++g) with_group(g);
     if (in_.wall_count > 0) with_walls();
     store_sums();
@@ -111,6 +112,14 @@ class ClusterWork {
   }
 
  private:
+  bool out_of_reach() const {
+    bool out = false;
+    for (int a = 0; a < 3; ++a)
+      out = out || (in_.partly && (box_.low[a] - in_.disturbed_high[a] > in_.margin ||
+                                   in_.disturbed_low[a] - box_.high[a] > in_.margin));
+    return out;
+  }
+
   double h_of(int l) const { return own_.variable_h ? in_.fluid[cluster_.begin + l].h : own_.h_max; }
 
   void with_group(int g) {

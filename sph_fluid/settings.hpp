@@ -104,6 +104,9 @@ struct Numerics {
   double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density
+  /// Particles at rest are worked on from when a signal of this share of the sound speed (or of the density) comes within
+  /// reach; 0: always.
+  double signal = 1e-12;
   int threads = 0;            ///< 0: all the machine has
 };
 

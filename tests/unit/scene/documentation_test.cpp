@@ -55,6 +55,7 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   expect("[scheme]", "alpha", numerics.alpha);
   expect("[scheme]", "beta", numerics.beta);
   expect("[scheme]", "courant", numerics.courant);
+  expect("[scheme]", "signal", numerics.signal);
   expect("[scheme]", "h_low", numerics.h_low);
   expect("[scheme]", "h_high", numerics.h_high);
   expect("[structure]", "courant", structure.courant);

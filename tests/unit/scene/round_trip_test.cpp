@@ -36,6 +36,7 @@ alpha = 0.5
 beta = 2
 courant = 0.2
 fixed_step = 1e-8
+signal = 1e-6
 h_low = 0.8
 h_high = 3
 [[bodies]]

@@ -90,6 +90,65 @@ TEST(Runs, MassAndCountsStay) {
   EXPECT_LT(fluid.neighbour_interactions(), 22ll * 200 * (long long)(fluid.particle_count()));
 }
 
+/// A gas bubble at the end of a long tank of water without pressure; `axis` is the long one.
+Settings long_tank(SchemeName scheme, int axis) {
+  Settings settings;
+  settings.lattice.spacing = 0.02;
+  const Sphere ball{Vec3::Zero(), 0.09};
+  Vec3 high = Vec3::Constant(0.12);
+  high[axis] = 6.0;
+  settings.bodies = {body("water", Shape{Box{-high, high}, {ball}}, "water-tait"), body("bubble", Shape{ball, {}}, "bubble-gas")};
+  settings.bodies[1].variable_h = true;
+  settings.walls = {box_wall(-high, high)};
+  settings.bodies[0].pressure = 1.1e-5;
+  settings.symmetry.axis = {true, true, true};
+  settings.numerics.scheme = scheme;
+  return settings;
+}
+
+/// Leaving out what no signal has reached changes nothing but round-off, along every axis, and saves pairs.
+TEST(Runs, RestIsLeftOutExactly) {
+  for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann})
+    for (int axis = 0; axis < 3; ++axis) {
+      Settings settings = long_tank(scheme, axis);
+      Fluid partly(settings);
+      settings.numerics.signal = 0.0;
+      Fluid whole(settings);
+      for (int k = 0; k < 40; ++k) {
+        const StepLimit a = partly.step_limit(), b = whole.step_limit();
+        ASSERT_NEAR(a.step, b.step, 1e-9 * b.step);
+        partly.step(b.step);
+        whole.step(b.step);
+      }
+      const std::vector<Vec3> x = by_id(partly, "position"), wanted_x = by_id(whole, "position");
+      const std::vector<Vec3> v = by_id(partly, "velocity"), wanted_v = by_id(whole, "velocity");
+      double fastest = 0, difference = 0, moved = 0;
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        fastest = std::max(fastest, wanted_v[i].norm());
+        difference = std::max(difference, (v[i] - wanted_v[i]).norm());
+        moved = std::max(moved, (x[i] - wanted_x[i]).norm());
+      }
+      EXPECT_GT(fastest, 30.0);
+      EXPECT_LT(difference, 2e-9 * fastest) << "axis " << axis;
+      EXPECT_LT(moved, 1e-10 * settings.lattice.spacing) << "axis " << axis;
+      EXPECT_LT(partly.neighbour_interactions(), 7 * whole.neighbour_interactions() / 10) << "axis " << axis;
+    }
+}
+
+/// A body that nothing holds is no rest: its free surface moves from the first step on.
+TEST(Runs, AFreeSurfaceIsNotAtRest) {
+  Settings settings = long_tank(SchemeName::riemann, 2);
+  settings.bodies[0].pressure = 1e5;
+  settings.walls[0].faces["z_high"] = FaceCondition::open;
+  Fluid fluid(settings);
+  fluid.step(fluid.step_limit().step);
+  const std::vector<Vec3> x = by_id(fluid, "position"), v = by_id(fluid, "velocity");
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i][2] > 5.98) {
+      EXPECT_GT(v[i][2], 1e-6);
+    }
+}
+
 // ---- The step ------------------------------------------------------------------------------------------------------
 
 /// Volumes must go with the particles: without the filling in the pair rates one particle's volume runs away at 7 us.
