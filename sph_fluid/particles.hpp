@@ -36,10 +36,16 @@ struct Particles {
 
   std::size_t size() const { return x.size(); }
 
-  void resize(std::size_t n, bool with_energy, bool with_gradients) {
+  /// State for n particles.
+  void resize(std::size_t n, bool with_energy) {
     for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
     if (with_energy) energy.assign(n, 0.0);
     id.resize(n);
+  }
+
+  /// Room for the rest, once the state is there: until then set-up needs memory of its own.
+  void make_room(bool with_gradients) {
+    const std::size_t n = size();
     rate.assign(n, SumRow{});
     earlier.assign(n, EarlierRates{});
     predicted.resize(n);

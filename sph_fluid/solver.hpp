@@ -1,0 +1,150 @@
+// What a Fluid is made of: its particles, walls and the passes of a step. Set-up is in solver_start.cpp, the step in
+// solver_step.cpp, what others ask in solver_queries.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "sph_fluid/blocks.hpp"
+#include "sph_fluid/cell_list.hpp"
+#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/pair_loop.hpp"
+#include "sph_fluid/particles.hpp"
+
+namespace undex::sph {
+
+/// A body's particles: one material, one smoothing-length policy, one range in memory.
+struct Group {
+  const Body* body = nullptr;
+  std::uint32_t begin = 0, end = 0;
+  double spacing = 0, h0 = 0;            // [m]
+  double h_max = 0;                      // [m], the largest at present
+  double rest_density = 0;               // [kg/m^3], of what no signal has reached
+  std::vector<double> lighting;          // burning charges only, by id - begin [s]
+  CellList cells;
+};
+
+/// A box around the particles that are no longer in their first state of rest; it only grows.
+struct Disturbed {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+  void add(const Vec3& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  void add(const Disturbed& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  bool within(const Vec3& x, double margin) const {
+    return ((low.array() - margin) <= x.array()).all() && (x.array() <= (high.array() + margin)).all();
+  }
+};
+
+struct Fluid::Implementation {
+  Settings settings;
+  PairLoops loops;
+  Particles particles;
+  std::vector<Group> groups;
+  std::vector<GroupView> views;
+  BlockOrder blocks;
+  std::vector<long long> interactions;           // per block
+
+  std::vector<MovingWall> rigid;
+  std::vector<MovingWall> moving;
+  std::vector<std::vector<Vec3>> moving_force;   // at the last evaluation, per moving wall [N]
+  struct WallOrigin {
+    int wall;             // index into `moving`, or -1 - index into `rigid`
+    std::uint32_t point;
+  };
+  std::vector<WallOrigin> wall_origin;
+  std::vector<double> wall_place[3];             // sorted by cell, as the next two
+  std::vector<WallRow> wall_rows;
+  std::vector<ForceRow> wall_force;
+  CellList wall_cells;
+  bool walls_packed = false;
+  int threads = 1;
+  std::vector<Scratch> scratch;
+  PassTimers timers;
+  double time = 0;
+  long steps = 0;
+  bool has_energy = false;
+  bool evaluated = false;
+  double dissipated = 0, wall_work = 0;
+  double wall_power = 0;                         // work on moving walls at the last evaluation [W]
+  long long interaction_sum = 0;
+  Clamps clamps;
+  Disturbed disturbed;
+  double reach = 0;                              // largest distance of a pair [m]
+  bool everywhere = true;                        // are all particles worked on, signal or not?
+  double evaluation_time = 0;                    // of the state that rates are evaluated at [s]
+  double last_step = 0;                          // [s]
+
+  explicit Implementation(const Settings& settings);
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+  ~Implementation() {
+    for (Scratch& s : scratch) release(s);
+  }
+
+  // Set-up: solver_start.cpp.
+  void fill();
+  /// Replaces a body's uniform start; mass, kinetic energy and (with an energy field) internal energy become exact.
+  void lay_on(const StartField& start, Group& group);
+  /// After the first evaluation: who is not at rest? Whoever is accelerated, be it by an imbalance of the lattice (rings
+  /// have one, a Cartesian lattice under pressure has none). Where a wall moves or a charge burns, all are worked on.
+  void watch_for_signals();
+
+  // The step and its passes: solver_step.cpp.
+  /// Predict, evaluate once, correct: kick-drift-kick with rates taken at a predicted state. A predictor by the last rates
+  /// alone makes waves grow by a relative (omega dt)^4/4 a step; extrapolating them by a sixth of their last change cancels
+  /// that term: an undamped wave still grows, by 1e-3 a step at omega dt = 0.45, but by O((omega dt)^6), at no further
+  /// evaluation.
+  void step(double dt);
+  /// Rates at the present positions, with the state predicted for the end of a step (see equation_of_state).
+  void evaluate(double half, double bend);
+  /// First half of the kick, drift, and the moving walls' half of the impulse.
+  void kick_and_drift(double dt);
+  void half_kick(double dt);
+  void sort();
+  /// State predicted for the end of the step, pressure and sound speed, and the smoothing length. The prediction adds
+  /// `half` times the last rates and `bend` times their last change to the half-kicked state.
+  void equation_of_state(double half, double bend);
+  template <class Law>
+  void evaluate_group(const Law& law, Group& group, double half, double bend);
+  materials::PressureSound burning_state(const materials::Jwl& law, const Group& group, std::uint32_t k, double rho,
+                                         double energy) const;
+  /// Extends the box of the disturbed by those whose speed or density has left rest by more than the share of the sound
+  /// speed (or of the density) that counts as a signal.
+  void find_signals();
+  void pack_walls();
+  PairInput pair_input();
+  void pairs(const PairInput& in);
+  /// Rates per mass from the sums per volume. Where there is an energy field, its rate is the viscous heat plus the
+  /// pressure's work.
+  void finish_rates();
+  void wall_forces();
+
+  // What others ask: solver_queries.cpp.
+  StepLimit step_limit();
+  const Body& body_of(std::uint32_t i) const;
+  const char* remedy() const;
+  [[noreturn]] void stop_at_bad_value() const;
+  Ledger ledger() const;
+  /// Calls visit(index, distance) for every particle, images included, within `radius_over_h` of its own h of the point.
+  template <class Visit>
+  void around(const Vec3& point, double radius_over_h, Visit visit) const;
+  /// Shepard average with Wendland's kernel at h = 1.2 spacings, whatever the scheme's own.
+  PointValues at(const Vec3& point) const;
+  std::vector<double> field(std::string_view name) const;
+  template <class F>
+  double largest(F f) const {
+    double result = 0;
+#pragma omp parallel for schedule(static) reduction(max : result)
+    for (std::size_t i = 0; i < particles.size(); ++i) result = std::max(result, f(i));
+    return result;
+  }
+};
+
+}  // namespace undex::sph
