@@ -28,6 +28,7 @@ double start_energy(const Body& body) {
 
 Fluid::Implementation::Implementation(const Settings& s)
     : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme, s.numerics.precision)) {
+  threads = s.numerics.threads > 0 ? s.numerics.threads : machine_threads;
   omp_set_num_threads(threads);
   scratch.resize(threads);
   time = evaluation_time = settings.start_time;

@@ -1,5 +1,6 @@
 // Runs as a user sees them: reproducibility, what can be read off, and how a run that goes wrong ends.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <memory>
@@ -34,6 +35,7 @@ TEST(Runs, DoNotDependOnTheNumberOfThreads) {
       Fluid fluid(bubble(threads, scheme));
       ASSERT_GT(fluid.particle_count(), 4096u) << "too few for the threads to share";
       for (int k = 0; k < 8; ++k) fluid.step(fluid.step_limit().step);
+      EXPECT_EQ(omp_get_max_threads(), threads);
       if (threads == 1) {
         positions = fluid.field("position");
         velocities = fluid.field("velocity");
