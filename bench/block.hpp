@@ -22,7 +22,7 @@ struct Variant {
 /// Every combination of the axes below. A further axis is one more entry; a choice without a name leaves the names alone,
 /// so that what is compared by name (recorded counts, old results) stays comparable.
 inline std::vector<Variant> variants() {
-  using sph::KernelName, sph::Numerics, sph::SchemeName;
+  using sph::KernelName, sph::Numerics, sph::Precision, sph::SchemeName;
   struct Choice {
     const char* name;
     void (*set)(Numerics&);
@@ -33,6 +33,7 @@ inline std::vector<Variant> variants() {
       {{"gaussian_1.2", [](Numerics& n) { n.kernel = KernelName::gaussian, n.eta = 1.2; }},
        {"wendland_c2_1.3", [](Numerics& n) { n.kernel = KernelName::wendland_c2, n.eta = 1.3; }},
        {"wendland_c2_1.5", [](Numerics& n) { n.kernel = KernelName::wendland_c2, n.eta = 1.5; }}},
+      {{"", [](Numerics& n) { n.precision = Precision::full; }}, {"mixed", [](Numerics& n) { n.precision = Precision::mixed; }}},
   };
   std::vector<Variant> all = {{}};
   for (const std::vector<Choice>& axis : axes) {

@@ -101,7 +101,7 @@ struct PairInput {
   int dimension;
   const double *x, *y, *z;
   const FluidRow* fluid;
-  GradientRow* gradient;               ///< null where the scheme has no use for them; one more than particles, for reading over
+  GradientRow* gradient;               ///< null where the scheme has no use for them
   const GroupView* groups;
   int group_count;
   const double *wall_x, *wall_y, *wall_z;

@@ -49,7 +49,7 @@ struct Particles {
     rate.assign(n, SumRow{});
     earlier.assign(n, EarlierRates{});
     predicted.resize(n);
-    if (with_gradients) gradient.resize(n + 1);
+    if (with_gradients) gradient.resize(n);
   }
 
   /// Puts the particles of first .. first + order.size() into the order given by their present indices.

@@ -34,6 +34,8 @@ Fluid::Implementation::Implementation(const Settings& s)
   time = evaluation_time = settings.start_time;
   dissipated = settings.heat_before;
   fill();
+  pack_walls();
+  particles.make_room(loops.needs_gradients);
   evaluate(0.0, 0.0);
   watch_for_signals();
 }
@@ -73,7 +75,6 @@ void Fluid::Implementation::fill() {
     if (body.start) lay_on(*body.start, group);
     groups.push_back(std::move(group));
   }
-  particles.make_room(loops.needs_gradients);
 }
 
 void Fluid::Implementation::lay_on(const StartField& start, Group& group) {

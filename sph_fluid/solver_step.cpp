@@ -225,6 +225,7 @@ void Fluid::Implementation::find_signals() {
 
 void Fluid::Implementation::pack_walls() {
   if (walls_packed && moving.empty()) return;
+  if (moving.empty() && settings.walls.empty()) return;
   const auto timer = timers.measure("walls");
   // Where no wall moves they are packed once, and what they are made from is not kept.
   if (rigid.empty()) rigid = line_walls(settings);

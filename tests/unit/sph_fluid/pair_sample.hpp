@@ -140,7 +140,7 @@ inline Result run(const Sample& sample) {
   in.y = y.data();
   in.z = z.data();
   in.fluid = rows.data();
-  result.gradients.resize(loops.needs_gradients ? n + 1 : 0);
+  result.gradients.resize(loops.needs_gradients ? n : 0);
   in.gradient = result.gradients.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
@@ -164,7 +164,6 @@ inline Result run(const Sample& sample) {
   loops.rates(in, {sums.data(), m > 0 ? forces.data() : nullptr, interactions.data()});
   omp_set_num_threads(before);
   for (Scratch& s : scratch) release(s);
-  if (loops.needs_gradients) result.gradients.pop_back();
   for (std::size_t i = 0; i < n; ++i) {
     const double specific = 1.0 / rows[i].rho;
     Rate rate;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "core/errors.hpp"
 #include "scenes.hpp"
+#include "sph_fluid/pair_data.hpp"
 
 namespace undex::sph::testing {
 namespace {
@@ -149,6 +151,38 @@ TEST(Runs, AFreeSurfaceIsNotAtRest) {
     if (x[i][2] > 5.98) {
       EXPECT_GT(v[i][2], 1e-6);
     }
+}
+
+/// A scene pays for what it names: passes, and memory per particle.
+TEST(Runs, OnlyTheWorkThatASceneNeeds) {
+  const auto passes = [](const Fluid& fluid) {
+    std::set<std::string> names;
+    for (const auto& [name, seconds] : fluid.timers().seconds()) names.insert(name);
+    return names;
+  };
+  const auto bytes = [](const Fluid& fluid) { return double(fluid.memory_bytes()) / double(fluid.particle_count()); };
+  Settings settings;
+  settings.lattice.spacing = 0.05;
+  const Vec3 low = Vec3::Zero(), high = Vec3::Constant(1.5);
+  settings.bodies = {body("water", box(low, high), "water-tait")};
+  settings.numerics.scheme = SchemeName::monaghan;
+  Fluid plain(settings);
+  plain.step(1e-6);
+  EXPECT_EQ(passes(plain), (std::set<std::string>{"sort", "equation of state", "pairs", "integration"}));
+  const double least = bytes(plain);
+  EXPECT_LT(least, 225.0);
+
+  settings.walls = {box_wall(low, high)};
+  Fluid walled(settings);
+  walled.step(1e-6);
+  EXPECT_EQ(passes(walled), (std::set<std::string>{"sort", "equation of state", "walls", "pairs", "integration"}));
+  settings.walls.clear();
+
+  settings.numerics.scheme = SchemeName::riemann;
+  EXPECT_NEAR(bytes(Fluid(settings)) - least, sizeof(GradientRow), 1.0);
+  settings.numerics.scheme = SchemeName::monaghan;
+  settings.bodies = {body("gas", box(low, high), "air")};
+  EXPECT_NEAR(bytes(Fluid(settings)) - least, sizeof(double), 1.0);  // an energy
 }
 
 // ---- The step ------------------------------------------------------------------------------------------------------
