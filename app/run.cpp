@@ -101,6 +101,22 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
 }
 
+/// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
+/// time: what goes off within a step is caught there, and named more closely.
+void expect_energy(const Simulation& simulation, bool& was_off) {
+  constexpr double most = 0.5;
+  const double error = simulation.energy().error();
+  const bool off = std::abs(error) > most, again = off && was_off;
+  was_off = off;
+  if (!again) return;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv); a smaller scheme.courant (or "
+                "scheme.fixed_step, structure.courant) may hold it",
+                simulation.time(), 100.0 * error);
+  throw NumericalStop(text);
+}
+
 void print_cost(const output::RunRecord& record) {
   std::printf("%s: %s at %.6g us after %lld steps, %.1f s of wall time, %.1f s of CPU time, %.0f MB\n", record.scene.c_str(),
               record.status.c_str(), record.time_s * 1e6, static_cast<long long>(record.steps), record.wall_time_s,
@@ -181,12 +197,14 @@ int run(const scene::Scene& given, const RunOptions& options) {
     }
   };
 
+  bool energy_off = false;
   try {
     if (simulation.time() > 0) probes.sample_before(simulation, 0.0);
     observe();
     while (simulation.time() < scene.end_time * (1 - 1e-12)) {
       simulation.advance(std::min(scene.end_time, next_snapshot));
       observe();
+      expect_energy(simulation, energy_off);
       progress.report(simulation);
       if (signal_received != 0) {
         finish("interrupted", signal_received == SIGINT ? "SIGINT" : "SIGTERM");
