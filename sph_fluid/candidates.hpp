@@ -127,14 +127,14 @@ UNDEX_INLINE void for_each_image(const bool mirror[3], const Box3& box, double r
 }
 
 /// The candidates of one cluster in a thread's scratch memory, a vector's worth after the other: each block holds `lanes`
-/// places (relative to an origin), rows, gradient rows where the pass wants them, and room for what the pairs add to them.
+/// places (relative to an origin), weights, rows, gradient rows where the pass wants them, and room for what the pairs add to them.
 template <class T, bool with_gradients, int sums>
 class CandidateList {
  public:
   static constexpr int W = lanes<T>, D = lanes<double>;
   static constexpr int row = 8, gradient_row = sizeof(GradientRow) / sizeof(float);
   /// Offsets of the parts within a block, and from block to block.
-  static constexpr int place = 0, state = 3 * W, gradient = (3 + row) * W;
+  static constexpr int place = 0, weight = 3 * W, state = 4 * W, gradient = (4 + row) * W;
   static constexpr int sum = gradient + (with_gradients ? gradient_row * W : 0), stride = sum + sums * W;
   std::uint32_t size = 0;  ///< candidates
 
@@ -173,6 +173,12 @@ class CandidateList {
         store_converted(to + place + a * W, (image >> a & 1 ? -1.0 : 1.0) * load_double(axes[a] + c) - origin[a]);
     }
     for (; real < size; ++real) block(real / W)[place + real % W] = far;
+  }
+
+  /// What a pair with each counts: one half for the first `halves` candidates from `begin` on, one for the others.
+  UNDEX_INLINE void fill_weights(std::uint32_t begin, std::uint32_t halves) {
+    for (std::uint32_t c = begin; c < size; c += W) store(block(c / W) + weight, broadcast(T(1)));
+    for (std::uint32_t c = begin; c < begin + halves; ++c) block(c / W)[weight + c % W] = T(0.5);
   }
 
   /// Candidates from `begin` on get their rows, mirrored.

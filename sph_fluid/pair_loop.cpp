@@ -106,9 +106,9 @@ class ClusterWork {
     for (int g = 0; g < in_.group_count; ++g) with_group(g);
     if (in_.wall_count > 0) with_walls();
     store_sums();
-    long long met = -std::int64_t(cluster_.count);  // a particle is not its own neighbour
-    for (int l = 0; l < W; ++l) met += std::int64_t(seen_[l]) + 2 * std::int64_t(seen_twice_[l]);
-    return met;
+    double met = 0;
+    for (int l = 0; l < W; ++l) met += 2.0 * double(met_[l]);
+    return (long long)(met)-cluster_.count;  // a particle is not its own neighbour
   }
 
  private:
@@ -129,21 +129,11 @@ class ClusterWork {
     kind.gas = own_.gas || other.gas;
     // A pair's h is the mean of two.
     const double reach = Kernel::support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
+    // Where both sides receive their part, the pairs of two clusters belong to the first, and a cluster meets what comes after
+    // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
+    // an image, i is an image too, and what the image receives is mirrored back.
+    if (Pass::symmetric && g < cluster_.group) return;
     const std::uint32_t next = cluster_.begin + cluster_.count;
-    if (Pass::symmetric && g < cluster_.group) return;  // those pairs are the other cluster's
-    if (Pass::symmetric && g == cluster_.group) {
-      // The cluster with itself and its own images: from one side.
-      list_.size = 0;
-      for_each_image(in_.mirror, box_, reach, [&](int image, const Box3&) {
-        const std::uint32_t begin = list_.size;
-        list_.reserve(begin + cluster_size);
-        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
-        fill(begin, image, reach);
-      });
-      pairs_with<State, Sums, false>(kind);
-    }
-    // All candidates (or, where both sides receive their part, all that come after the cluster) and their images. Seen from
-    // an image, i is an image too: what the image receives is mirrored back.
     struct {
       std::uint32_t begin, real;
       int image;
@@ -152,9 +142,15 @@ class ClusterWork {
     list_.size = 0;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       const std::uint32_t begin = list_.size;
+      std::uint32_t own = 0;
+      if (Pass::symmetric && g == cluster_.group) {
+        own = cluster_.count;
+        list_.reserve(begin + own);
+        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
+      }
       scan_grid(other.grid, in_.x, in_.y, in_.z, box, reach, Pass::symmetric ? next : 0, list_);
       pieces[count++] = {begin, list_.size, image};
-      fill(begin, image, reach);
+      fill(begin, own, image, reach);
     });
     pairs_with<State, Sums, Pass::symmetric>(kind);
     if constexpr (Pass::symmetric)
@@ -182,12 +178,13 @@ class ClusterWork {
     });
   }
 
-  /// The candidates from `begin` on get what the pairs read of them.
-  void fill(std::uint32_t begin, int image, double reach) {
+  /// The candidates from `begin` on, the first `own` of them the cluster's, get what the pairs read of them.
+  void fill(std::uint32_t begin, std::uint32_t own, int image, double reach) {
     const std::uint32_t real = list_.size;
     if (real == begin) return;
     list_.pad(begin);
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
+    if (Pass::symmetric) list_.fill_weights(begin, own);
     list_.template fill_rows<List::state>(begin, in_.fluid, image);
     if constexpr (State::with_gradients) list_.template fill_rows<List::gradient>(begin, in_.gradient, image);
   }
@@ -216,8 +213,9 @@ class ClusterWork {
       i.read_gradients([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.gradient + me)[k])); });
     const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
             z = broadcast(T(in_.z[me] - origin_[2]));
+    constexpr bool wall = same_type<Other, Wall>;
     Sums si;
-    Mask<T> seen{};
+    V met{};
     Pair<V> pair;
     pair.gas = kind.gas;
     T* block = list_.block(0);
@@ -232,17 +230,25 @@ class ClusterWork {
       pair.dz = z - load(block + List::place + 2 * W);
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
       smoothing.evaluate(pair, block + List::state + 7 * W);
-      seen -= pair.near;
+      if constexpr (wall || !Pass::symmetric) {
+        met += keep(pair.near, broadcast(T(0.5)));
+      } else {
+        const V weight = load(block + List::weight);
+        met += keep(pair.near, weight);
+        pair.F *= weight;
+      }
       OtherSums sj;
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sum = load(block + List::sum + k * W); });
-      if constexpr (same_type<Other, Wall>)
+      if constexpr (wall)
         pass_.wall(i, j, pair, si, sj);
       else
         pass_.pair(i, j, pair, si, sj);
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
     }
-    (two_sided && !same_type<Other, Wall> ? seen_twice_ : seen_) += seen;
-    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
+    met_ += met;
+    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE {
+      sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum;
+    });
   }
 
   /// The particles' sums over lanes and candidates, D particles at a time.
@@ -281,7 +287,7 @@ class ClusterWork {
   double origin_[3];
   double h_cluster_;
   V sums_[cluster_size][Sums::count] = {};
-  Mask<T> seen_{}, seen_twice_{};
+  V met_{};  // half the neighbours met
 };
 
 /// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away
