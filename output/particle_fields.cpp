@@ -1,9 +1,11 @@
 #include "output/particle_fields.hpp"
 
 #include <cctype>
+#include <cerrno>
 #include <stdexcept>
 #include <string>
 
+#include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
 
@@ -23,7 +25,14 @@ bool looks_like_a_component(const std::string& name) {
 }  // namespace
 
 ParticleFields::ParticleFields(std::filesystem::path path) : path_(std::move(path)) {
-  hdf5::File::create(path_).flush();
+  // Made elsewhere and moved to its place: a program killed here leaves what was there before, not an empty file.
+  const std::filesystem::path temporary = temporary_name(path_);
+  try {
+    hdf5::File::create(temporary).flush();
+  } catch (const FileError&) {
+    throw_file_error("write", path_, errno);  // under the name that the user knows
+  }
+  put_in_place(temporary, path_);
 }
 
 void ParticleFields::write(double time, std::span<const Vec3> positions, std::span<const Field> fields,

@@ -53,14 +53,29 @@ inline std::uint32_t scan_run(const double* x, const double* y, const double* z,
     ids = _mm256_add_epi32(ids, _mm256_set1_epi32(8));
   }
 #else
-  for (std::uint32_t s = begin; s < end; ++s) {
-    const double a = gap(box.low[0], box.high[0], x[s], x[s]), b = gap(box.low[1], box.high[1], y[s], y[s]),
-                 c = gap(box.low[2], box.high[2], z[s], z[s]);
+  using V = Vec<double>;
+  constexpr std::uint32_t D = lanes<double>;
+  const V zero{};
+  const auto keep_if = [&](std::uint32_t s, bool near) UNDEX_LAMBDA_INLINE {
     to.index[found] = s;
     to.x[found] = x[s];
     to.y[found] = y[s];
     to.z[found] = z[s];
-    found += a * a + b * b + c * c < reach2;
+    found += near;
+  };
+  std::uint32_t s = begin;
+  for (; s + D <= end; s += D) {
+    const V px = load_double(x + s), py = load_double(y + s), pz = load_double(z + s);
+    const V a = maximum(zero, maximum(box.low[0] - px, px - box.high[0]));
+    const V b = maximum(zero, maximum(box.low[1] - py, py - box.high[1]));
+    const V c = maximum(zero, maximum(box.low[2] - pz, pz - box.high[2]));
+    int near = bits_of(a * a + b * b + c * c < reach2);
+    for (; near != 0; near &= near - 1) keep_if(s + std::uint32_t(__builtin_ctz(unsigned(near))), true);
+  }
+  for (; s < end; ++s) {
+    const double a = gap(box.low[0], box.high[0], x[s], x[s]), b = gap(box.low[1], box.high[1], y[s], y[s]),
+                 c = gap(box.low[2], box.high[2], z[s], z[s]);
+    keep_if(s, a * a + b * b + c * c < reach2);
   }
 #endif
   return found;

@@ -106,6 +106,13 @@ UNDEX_INLINE void store_converted(float* to, Vec<double> a) {
   __builtin_memcpy(to, &part, sizeof part);
 }
 
+#if UNDEX_VECTOR_BYTES == 32
+/// Bit l is set where lane l is true.
+UNDEX_INLINE int bits_of(Mask<double> m) { return _mm256_movemask_pd((__m256d)m); }
+#elif UNDEX_VECTOR_BYTES == 16
+UNDEX_INLINE int bits_of(Mask<double> m) { return _mm_movemask_pd((__m128d)m); }
+#endif
+
 /// r[a][b] becomes r[b][a].
 UNDEX_INLINE void transpose(Vec<double> (&r)[lanes<double>]) {
 #define UNDEX_SWAP(a, b, low, high)                                                    \

@@ -133,7 +133,7 @@ TEST(ParticleFields, KilledRunLeavesReadableSnapshots) {
       const std::vector<Field> fields{{"pressure", 1, pressure}};
       for (int n = 0;; ++n) out.write(n, points, fields);
     }
-    usleep(150'000 + 7'000 * round);
+    usleep(400'000 + 7'000 * round);  // opening the library alone can take 100 ms
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const Reader in(path);
