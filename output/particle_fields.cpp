@@ -30,7 +30,10 @@ ParticleFields::ParticleFields(std::filesystem::path path) : path_(std::move(pat
   try {
     hdf5::File::create(temporary).flush();
   } catch (const FileError&) {
-    throw_file_error("write", path_, errno);  // under the name that the user knows
+    const int error = errno;
+    std::error_code none;
+    std::filesystem::remove(temporary, none);
+    throw_file_error("write", path_, error);  // under the name that the user knows
   }
   put_in_place(temporary, path_);
 }
