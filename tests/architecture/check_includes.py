@@ -42,7 +42,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 SOURCES = {".hpp", ".cpp", ".h", ".cc", ".inc"}
 TEXTS = SOURCES | {".md", ".toml", ".txt", ".cmake", ".py", ".sh", ".json", ".csv", ".yml", ".yaml", ""}
 FOREIGN = re.compile(r"(?<![\w.])/(?:work|home|root|Users|tmp/build)[/\w]*|(?<![\w.-])shared/[\w.]+")
-SKIPPED = {".git", "build", "__pycache__"}
+SKIPPED = {".git", "build", "out", "__pycache__"}  # what git ignores too
 HERE = pathlib.PurePosixPath("tests/architecture/check_includes.py")
 
 
