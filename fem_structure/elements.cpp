@@ -13,7 +13,7 @@ constexpr std::size_t worth_threads = 512;
 // A cell that has strained by this much gets its highest frequency anew.
 constexpr double frequency_strain = 0.01;
 
-using Lanes = double[8];  // one value per quadrature point
+using Lanes = materials::EightPoints;  // one value per quadrature point
 
 /// result[i][j] = sum over nodes of v[i] dN/dxi_j, at all quadrature points.
 inline void contract(const double (&v)[3][8], const ReferenceCell& reference, Lanes (&result)[3][3]) {
@@ -182,82 +182,28 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   }
   if (!sound_geometry || !std::isfinite(volume)) return false;
 
-  // Trial stress: half of the elastic increment before the rotation of the step and half after it.
-  const double shear = material_.shear_modulus;
-  Lanes strain[6], old_stress[6], stress[6], old_work;
-  double most_strain = 0.0;
-  for (int k = 0; k < 6; ++k)
-    for (int q = 0; q < 8; ++q) old_stress[k][q] = deviator_[k][8 * c + q];
-  for (int q = 0; q < 8; ++q) {
-    const double mean = (gradient[0][0][q] + gradient[1][1][q] + gradient[2][2][q]) / 3.0;
-    strain[0][q] = gradient[0][0][q] - mean;
-    strain[1][q] = gradient[1][1][q] - mean;
-    strain[2][q] = gradient[2][2][q] - mean;
-    strain[3][q] = 0.5 * (gradient[1][2][q] + gradient[2][1][q]);
-    strain[4][q] = 0.5 * (gradient[2][0][q] + gradient[0][2][q]);
-    strain[5][q] = 0.5 * (gradient[0][1][q] + gradient[1][0][q]);
-    const double norm = strain[0][q] * strain[0][q] + strain[1][q] * strain[1][q] + strain[2][q] * strain[2][q] +
-                        2.0 * (strain[3][q] * strain[3][q] + strain[4][q] * strain[4][q] +
-                               strain[5][q] * strain[5][q]);
-    most_strain = std::max(most_strain, std::sqrt(norm) + std::abs(mean));
-    old_work[q] = old_stress[0][q] * strain[0][q] + old_stress[1][q] * strain[1][q] +
-                  old_stress[2][q] * strain[2][q] +
-                  2.0 * (old_stress[3][q] * strain[3][q] + old_stress[4][q] * strain[4][q] +
-                         old_stress[5][q] * strain[5][q]);
-  }
-  for (int q = 0; q < 8; ++q) {
-    // Cayley rotation R = I + 2/(1 + a.a) (A + A A), A the skew matrix of a, half the step's rotation vector.
-    const double ax = 0.25 * (gradient[2][1][q] - gradient[1][2][q]);
-    const double ay = 0.25 * (gradient[0][2][q] - gradient[2][0][q]);
-    const double az = 0.25 * (gradient[1][0][q] - gradient[0][1][q]);
-    const double square = ax * ax + ay * ay + az * az, factor = 2.0 / (1.0 + square);
-    const double r00 = 1.0 + factor * (ax * ax - square), r11 = 1.0 + factor * (ay * ay - square),
-                 r22 = 1.0 + factor * (az * az - square);
-    const double r01 = factor * (ax * ay - az), r10 = factor * (ax * ay + az);
-    const double r02 = factor * (ax * az + ay), r20 = factor * (ax * az - ay);
-    const double r12 = factor * (ay * az - ax), r21 = factor * (ay * az + ax);
-    const double sxx = old_stress[0][q] + shear * strain[0][q], syy = old_stress[1][q] + shear * strain[1][q],
-                 szz = old_stress[2][q] + shear * strain[2][q], syz = old_stress[3][q] + shear * strain[3][q],
-                 szx = old_stress[4][q] + shear * strain[4][q], sxy = old_stress[5][q] + shear * strain[5][q];
-    const double t00 = r00 * sxx + r01 * sxy + r02 * szx, t01 = r00 * sxy + r01 * syy + r02 * syz,
-                 t02 = r00 * szx + r01 * syz + r02 * szz;
-    const double t10 = r10 * sxx + r11 * sxy + r12 * szx, t11 = r10 * sxy + r11 * syy + r12 * syz,
-                 t12 = r10 * szx + r11 * syz + r12 * szz;
-    const double t20 = r20 * sxx + r21 * sxy + r22 * szx, t21 = r20 * sxy + r21 * syy + r22 * syz,
-                 t22 = r20 * szx + r21 * syz + r22 * szz;
-    stress[0][q] = t00 * r00 + t01 * r01 + t02 * r02 + shear * strain[0][q];
-    stress[1][q] = t10 * r10 + t11 * r11 + t12 * r12 + shear * strain[1][q];
-    stress[2][q] = t20 * r20 + t21 * r21 + t22 * r22 + shear * strain[2][q];
-    stress[3][q] = t10 * r20 + t11 * r21 + t12 * r22 + shear * strain[3][q];
-    stress[4][q] = t20 * r00 + t21 * r01 + t22 * r02 + shear * strain[4][q];
-    stress[5][q] = t00 * r10 + t01 * r11 + t02 * r12 + shear * strain[5][q];
-  }
-
-  // Plastic flow.
-  const double heating = material_.taylor_quinney * volume / (cell_mass_[c] * material_.heat_capacity);
-  double deviatoric_work = 0.0, plastic_work = 0.0;
-  const bool yields = !std::holds_alternative<materials::Elastic>(material_.flow);
+  // Stress deviator at the quadrature points.
+  materials::SolidPoints points;
+  materials::SolidStep done;
+  Lanes specific_volume;
   for (int q = 0; q < 8; ++q) {
     const std::size_t at = 8 * c + q;
-    if (yields) {
-      const double square = stress[0][q] * stress[0][q] + stress[1][q] * stress[1][q] + stress[2][q] * stress[2][q] +
-                            2.0 * (stress[3][q] * stress[3][q] + stress[4][q] * stress[4][q] +
-                                   stress[5][q] * stress[5][q]);
-      const auto step = materials::radial_return(material_, std::sqrt(1.5 * square), plastic_strain_[at],
-                                                 temperature_[at], dt);
-      if (step.plastic_strain > 0.0) {
-        for (int k = 0; k < 6; ++k) stress[k][q] *= step.scale;
-        plastic_strain_[at] += step.plastic_strain;
-        temperature_[at] += heating * step.work;
-        plastic_work += 0.5 * (weight_[at] + weight[q]) * step.work;
-      }
-    }
-    const double new_work = stress[0][q] * strain[0][q] + stress[1][q] * strain[1][q] + stress[2][q] * strain[2][q] +
-                            2.0 * (stress[3][q] * strain[3][q] + stress[4][q] * strain[4][q] +
-                                   stress[5][q] * strain[5][q]);
-    deviatoric_work += 0.5 * (weight_[at] * old_work[q] + weight[q] * new_work);
+    for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][at];
+    points.plastic_strain[q] = plastic_strain_[at];
+    points.temperature[q] = temperature_[at];
+    specific_volume[q] = volume / cell_mass_[c];
+  }
+  materials::advance_deviator(material_, gradient, specific_volume, dt, points, done);
+  double deviatoric_work = 0.0, plastic_work = 0.0, most_strain = 0.0;
+  for (int q = 0; q < 8; ++q) {
+    const std::size_t at = 8 * c + q;
+    most_strain = std::max(most_strain, done.strain_norm[q]);
+    deviatoric_work += 0.5 * (weight_[at] * done.old_work[q] + weight[q] * done.new_work[q]);
+    plastic_work += 0.5 * (weight_[at] + weight[q]) * done.plastic_work[q];
+    for (int k = 0; k < 6; ++k) deviator_[k][at] = points.deviator[k][q];
+    plastic_strain_[at] = points.plastic_strain[q];
+    temperature_[at] = points.temperature[q];
     weight_[at] = weight[q];
-    for (int k = 0; k < 6; ++k) deviator_[k][at] = stress[k][q];
   }
 
   // Pressure from the mean density; the work of this very pressure enters the energy it depends on: one correction.
@@ -265,6 +211,7 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   const double old_pressure = pressure_[c], old_viscous = viscous_pressure_[c];
   const double rate = opened / (0.5 * (volume + volume_[c]) * dt);
   auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / mass);
+  const double shear = material_.shear_modulus;
   const double sound = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * shear / density);
   const double length = 2.0 * sound / frequency_[c];  // the cell's shortest extent, as its highest mode sees it
   compression_rate_[c] = std::max(0.0, -rate);
@@ -292,9 +239,9 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
 
   const double total_pressure = state.pressure + viscous_pressure_[c];
   for (int k = 0; k < 3; ++k)
-    for (int q = 0; q < 8; ++q) stress[k][q] -= total_pressure;
+    for (int q = 0; q < 8; ++q) points.deviator[k][q] -= total_pressure;
   double force[3][8];
-  spread(stress, inverse, weight, reference_, force);
+  spread(points.deviator, inverse, weight, reference_, force);
   double* out = &corner_force_[24 * c];
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i) out[3 * node + i] = force[i][node];

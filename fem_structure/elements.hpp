@@ -14,6 +14,7 @@
 #include "core/vector.hpp"
 #include "fem_structure/grid.hpp"
 #include "materials/solid.hpp"
+#include "materials/stress_update.hpp"
 
 namespace undex::fem {
 
