@@ -42,6 +42,7 @@ int Fluid::add_moving_wall(MovingWall wall) {
   self_->evaluated = false;
   return int(self_->moving.size()) - 1;
 }
+const std::vector<Vec3>& Fluid::wall_force(int index) const { return self_->moving_force.at(index); }
 MovingWall& Fluid::moving_wall(int index) { return self_->moving.at(index); }
 
 StepLimit Fluid::step_limit() { return self_->step_limit(); }

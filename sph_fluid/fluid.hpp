@@ -88,6 +88,8 @@ class Fluid {
   /// Adds a wall that somebody else moves; keep the index. Its particles count from the next step on.
   int add_moving_wall(MovingWall wall);
   MovingWall& moving_wall(int index);
+  /// Forces [N] on its particles at the last evaluation.
+  const std::vector<Vec3>& wall_force(int index) const;
 
   /// Valid from construction on: rates are evaluated at once.
   StepLimit step_limit();

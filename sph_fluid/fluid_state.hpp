@@ -10,11 +10,28 @@ namespace undex::sph::UNDEX_LEVEL {
 inline constexpr int parity_of(const FluidRow*, int k) { return k < 3 ? 1 << k : 0; }
 inline constexpr int parity_of(const WallRow*, int k) { return k < 3 ? 1 << k : k < 6 ? 1 << (k - 3) : 0; }
 inline constexpr int parity_of(const GradientRow*, int k) { return k < 3 ? 0 : k < 6 ? (k == 5 ? 5 : 3 << (k - 3)) : 1 << (k - 6); }
+inline constexpr int parity_of(const SolidRow*, int k) {
+  constexpr int shear[3] = {6, 5, 3};
+  return k < 9 ? (1 << k / 3) ^ (1 << k % 3) : k < 12 ? 0 : shear[k - 12];
+}
 
 /// A row as an array of its numbers.
 inline const double* numbers(const FluidRow* row) { return &row->vx; }
 inline const double* numbers(const WallRow* row) { return &row->vx; }
 inline const float* numbers(const GradientRow* row) { return row->strain; }
+inline const double* numbers(const SolidRow* row) { return row->corrected; }
+
+/// The rows that a scheme reads beside FluidRow.
+struct NoRow {};
+inline const NoRow* second_rows(const PairInput&, const NoRow*) { return nullptr; }
+inline const GradientRow* second_rows(const PairInput& in, const GradientRow*) { return in.gradient; }
+inline const SolidRow* second_rows(const PairInput& in, const SolidRow*) { return in.solid; }
+inline constexpr int length_of(const NoRow*) { return 0; }
+inline constexpr int length_of(const GradientRow*) { return sizeof(GradientRow) / sizeof(float); }
+inline constexpr int length_of(const SolidRow*) { return sizeof(SolidRow) / sizeof(double); }
+
+/// Whom a pass pairs a particle with.
+enum class Partners { all, own_body, other_bodies };
 
 /// Two particles i and j (or i and a wall's particle): d = x_i - x_j, and F = (dW/dr)/r.
 template <class V>
@@ -28,7 +45,7 @@ struct Pair {
 template <class V>
 struct FluidState {
   V vx, vy, vz, p, volume, rho, c;
-  static constexpr bool with_gradients = false;
+  using Second = NoRow;
 
   template <class Read>
   UNDEX_INLINE void read(Read entry) {

@@ -19,7 +19,8 @@ struct Grid {
   Vec3 step = Vec3::Ones();     // cell edges; along the axis only, for rings
   bool rings = false;
   int axis = 2;
-  double ring_width = 0;
+  double ring_start = 0, ring_width = 0;
+  long around = 0;              // particles of every ring; 0: as many as its own length asks for
 };
 
 using Visit = std::function<void(const Vec3& x, double volume)>;
@@ -41,6 +42,11 @@ void fit_axis(double low, double high, double dx, double& origin, double& step) 
     origin = low;
     step = (high - low) / std::max(1.0, std::round((high - low) / dx));
   }
+}
+
+/// Particles on a ring, symmetric in quadrants.
+long ring_count(double radius, double width) {
+  return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width));
 }
 
 const Primitive& shape_to_fit(const Settings& settings) {
@@ -94,6 +100,32 @@ Grid scene_grid(const Settings& settings) {
   return grid;
 }
 
+/// A solid's own lattice. The rings of a tube all have as many particles: its wall is a grid, bent.
+Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
+  Grid grid = cartesian(settings.lattice.origin, dx, settings.dimension);
+  fit_grid(grid, body.shape.base, dx);
+  if (body.lattice != LatticeType::rings) return grid;
+  const auto about = [&](int axis, const Vec3& center, double inner, double outer) {
+    if (settings.dimension < 2 || (settings.dimension == 2 && axis != 2))
+      throw std::invalid_argument("solid '" + body.name +
+                                  "': lattice = \"rings\" needs three dimensions, or two with the axis along z");
+    grid.rings = true;
+    grid.axis = axis;
+    for (int a = 0; a < 3; ++a)
+      if (a != axis) grid.origin[a] = center[a];
+    grid.ring_start = inner;
+    grid.ring_width = (outer - inner) / std::max(1.0, std::round((outer - inner) / dx));
+    if (inner > 0) grid.around = ring_count(0.5 * (inner + outer), dx);
+  };
+  if (const auto* cylinder = std::get_if<Cylinder>(&body.shape.base))
+    about(cylinder->axis, cylinder->center, 0.0, cylinder->radius);
+  else if (const auto* tube = std::get_if<TubeShape>(&body.shape.base))
+    about(tube->axis, tube->center, tube->inner, tube->outer);
+  else
+    throw std::invalid_argument("solid '" + body.name + "': lattice = \"rings\" needs a cylinder or a tube; use \"cartesian\"");
+  return grid;
+}
+
 /// Visits every lattice point in `box` (or just outside) on the kept side of the symmetry planes.
 void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& visit) {
   for (int a = 0; a < 3; ++a)
@@ -137,10 +169,10 @@ void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& v
   const double length = grid.dimension == 3 ? grid.step[grid.axis] : 1.0;
   const Vec3 cell = Vec3::Constant(width);
   for (long k = first[grid.axis]; k <= last[grid.axis]; ++k)
-    for (long ring = 0; (ring - 1) * width <= reach; ++ring) {
-      const double r = (ring + 0.5) * width;
-      const long around = 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * r / width));  // symmetric in quadrants
-      const double volume = std::numbers::pi * width * width * (2.0 * ring + 1.0) * length / around;
+    for (long ring = 0; grid.ring_start + (ring - 1) * width <= reach; ++ring) {
+      const double r = grid.ring_start + (ring + 0.5) * width;
+      const long around = grid.around > 0 ? grid.around : ring_count(r, width);
+      const double volume = 2.0 * std::numbers::pi * r * width * length / around;
       for (long q = 0; q < around; ++q) {
         const double angle = 2.0 * std::numbers::pi * (q + 0.5) / around;
         Vec3 x = Vec3::Zero();
@@ -230,10 +262,30 @@ double kernel_support(KernelName kernel) {
 
 double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }
 
+namespace {
+
+BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
+  const Bounds box = bounds(shape, settings.dimension);
+  BodyParticles out;
+  double sum = 0;
+  walk(grid, settings, box, [&](const Vec3& x, double cell_volume) {
+    if (signed_distance(shape, x, settings.dimension) >= 0.0) return;
+    out.position.push_back(x);
+    out.volume.push_back(cell_volume);
+    sum += cell_volume;
+  });
+  if (out.position.empty())
+    throw std::invalid_argument(who + " gets no particle: it is smaller than the spacing or lies outside the kept part");
+  const double scale = volume(shape, kept_window(settings, box), settings.dimension) / sum;
+  for (double& cell_volume : out.volume) cell_volume *= scale;
+  return out;
+}
+
+}  // namespace
+
 std::vector<BodyParticles> fill_bodies(const Settings& settings) {
-  std::vector<BodyParticles> result(settings.bodies.size());
-  for (std::size_t b = 0; b < settings.bodies.size(); ++b) {
-    const Body& body = settings.bodies[b];
+  std::vector<BodyParticles> result;
+  for (const Body& body : settings.bodies) {
     Grid grid;
     if (body.spacing) {
       grid = cartesian(settings.lattice.origin, *body.spacing, settings.dimension);
@@ -241,21 +293,16 @@ std::vector<BodyParticles> fill_bodies(const Settings& settings) {
     } else {
       grid = scene_grid(settings);
     }
-    const Bounds box = bounds(body.shape, settings.dimension);
-    BodyParticles& out = result[b];
-    double sum = 0;
-    walk(grid, settings, box, [&](const Vec3& x, double cell_volume) {
-      if (signed_distance(body.shape, x, settings.dimension) >= 0.0) return;
-      out.position.push_back(x);
-      out.volume.push_back(cell_volume);
-      sum += cell_volume;
-    });
-    if (out.position.empty())
-      throw std::invalid_argument("body '" + body.name +
-                                  "' gets no particle: it is smaller than the spacing or lies outside the kept part");
-    const double scale = volume(body.shape, kept_window(settings, box), settings.dimension) / sum;
-    for (double& cell_volume : out.volume) cell_volume *= scale;
+    result.push_back(fill(grid, settings, body.shape, "body '" + body.name + "'"));
   }
+  return result;
+}
+
+std::vector<BodyParticles> fill_solids(const Settings& settings) {
+  std::vector<BodyParticles> result;
+  for (const SolidBody& body : settings.solids)
+    result.push_back(fill(solid_grid(settings, body, body.spacing.value_or(settings.lattice.spacing)), settings, body.shape,
+                          "solid '" + body.name + "'"));
   return result;
 }
 

@@ -15,6 +15,7 @@ struct BodyParticles {
 
 /// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.
 std::vector<BodyParticles> fill_bodies(const Settings& settings);
+std::vector<BodyParticles> fill_solids(const Settings& settings);
 
 /// Dummy particles of the rigid walls: the lattice continued beyond every face that is not open, as deep as the kernel
 /// reaches (at least three layers). One MovingWall per slip condition; their velocity is zero.

@@ -21,6 +21,7 @@ struct Monaghan {
   using Wall = WallState<V>;
   using Sums = FluidSums<V>;
   static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::all;
   T alpha, beta;
 
   explicit Monaghan(const PairInput& in) : alpha(T(in.alpha)), beta(T(in.beta)) {}

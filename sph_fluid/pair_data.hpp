@@ -31,6 +31,18 @@ struct GradientRow {
 /// Lower bound of GradientRow::filling. Half is what a plane free surface has.
 inline constexpr float least_filling = 0.5f;
 
+/// What pairs of solid particles read beside FluidRow [Pa]: sigma B, row by row, B being the correction of kernel gradients
+/// (solid_schemes.hpp); and sigma itself: xx, yy, zz, yz, zx, xy.
+struct SolidRow {
+  double corrected[9], stress[6];
+};
+
+/// What a solid particle learns from its body's others: velocity gradient d v_a/d x_b at 3a + b [1/s], the correction B (xx,
+/// yy, zz, xy, yz, zx) [-], and the body's outward border, sum_j V_j grad W_ij, zero inside [1/m].
+struct DeformationRow {
+  double gradient[9], correction[6], border[3];
+};
+
 /// What a pair reads of a wall's dummy particle.
 struct alignas(64) WallRow {
   double vx, vy, vz;  ///< [m/s]
@@ -69,6 +81,7 @@ struct GroupView {
   double h_max;             ///< [m]
   bool variable_h;
   bool gas;                 ///< bubble gas or detonation products, not liquid
+  bool own_pairs = true;    ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
 };
 
 /// Up to cluster_size consecutive particles of one row of cells.
@@ -102,6 +115,9 @@ struct PairInput {
   const double *x, *y, *z;
   const FluidRow* fluid;
   GradientRow* gradient;               ///< null where the scheme has no use for them
+  const SolidRow* solid;               ///< of the solids' passes, as the next
+  DeformationRow* deformation;
+  double artificial_stress, spacing;   ///< of the solids' forces
   const GroupView* groups;
   int group_count;
   const double *wall_x, *wall_y, *wall_z;

@@ -11,6 +11,7 @@
 #include "sph_fluid/pair_data.hpp"
 #include "sph_fluid/reconstruction.hpp"
 #include "sph_fluid/riemann_scheme.hpp"
+#include "sph_fluid/solid_schemes.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 namespace {
@@ -86,7 +87,9 @@ class ClusterWork {
   using Sums = typename Pass::Sums;
   using Wall = typename Pass::Wall;
   static constexpr int W = lanes<T>;
-  using List = CandidateList<T, State::with_gradients, Pass::symmetric ? Sums::count : 0>;
+  using Second = typename State::Second;
+  static constexpr bool with_second = !same_type<Second, NoRow>;
+  using List = CandidateList<T, Second, Pass::symmetric ? Sums::count : 0>;
 
  public:
   ClusterWork(const PairInput& in, const Pass& pass, const Cluster& cluster, Scratch& scratch, const PairOutput& out)
@@ -133,6 +136,8 @@ class ClusterWork {
     // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
     // an image, i is an image too, and what the image receives is mirrored back.
     if (Pass::symmetric && g < cluster_.group) return;
+    if (Pass::partners == Partners::own_body && !(g == cluster_.group && own_.own_pairs)) return;
+    if (Pass::partners == Partners::other_bodies && g == cluster_.group) return;
     const std::uint32_t next = cluster_.begin + cluster_.count;
     struct {
       std::uint32_t begin, real;
@@ -186,7 +191,7 @@ class ClusterWork {
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
     if (Pass::symmetric) list_.fill_weights(begin, own);
     list_.template fill_rows<List::state>(begin, in_.fluid, image);
-    if constexpr (State::with_gradients) list_.template fill_rows<List::gradient>(begin, in_.gradient, image);
+    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_, image);
   }
 
   template <class Other, class OtherSums, bool two_sided>
@@ -209,8 +214,8 @@ class ClusterWork {
     const std::uint32_t me = cluster_.begin + l;
     State i;
     i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
-    if constexpr (State::with_gradients)
-      i.read_gradients([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.gradient + me)[k])); });
+    if constexpr (with_second)
+      i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
     const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
             z = broadcast(T(in_.z[me] - origin_[2]));
     constexpr bool wall = same_type<Other, Wall>;
@@ -223,8 +228,8 @@ class ClusterWork {
     for (; block != end; block += List::stride) {
       Other j;
       j.read([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::state + k * W); });
-      if constexpr (requires { j.climb; })
-        j.read_gradients([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::gradient + k * W); });
+      if constexpr (with_second && !wall)
+        j.read_second([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::second + k * W); });
       pair.dx = x - load(block + List::place);
       pair.dy = y - load(block + List::place + W);
       pair.dz = z - load(block + List::place + 2 * W);
@@ -272,7 +277,7 @@ class ClusterWork {
           List::template add_row<Sums>(&out_.fluid[cluster_.begin + first + l].fx, row);
         }
       } else {
-        pass_.store(total, own_.gas, in_.gradient + cluster_.begin + first, count);
+        pass_.store(total, own_.gas, in_, cluster_.begin + first, count);
       }
     }
   }
@@ -281,6 +286,7 @@ class ClusterWork {
   const Pass& pass_;
   const Cluster& cluster_;
   const GroupView& own_;
+  const Second* second_ = second_rows(in_, (const Second*)nullptr);
   List list_;
   const PairOutput& out_;
   Box3 box_;
@@ -332,6 +338,10 @@ void riemann_rates(const PairInput& in, const PairOutput& out) {
   pass<Kernel, Reconstruction, T>(in, out);
   pass<Kernel, Riemann, T>(in, out);
 }
+
+void solid_deformation(const PairInput& in, const PairOutput& out) { pass<WendlandC2, VelocityGradient, double>(in, out); }
+void solid_forces(const PairInput& in, const PairOutput& out) { pass<WendlandC2, SolidForces, double>(in, out); }
+void solid_contact(const PairInput& in, const PairOutput& out) { pass<WendlandC2, SolidContact, double>(in, out); }
 
 #define UNDEX_INSTANTIATE(Kernel)                                                  \
   template void monaghan_rates<Kernel, double>(const PairInput&, const PairOutput&); \

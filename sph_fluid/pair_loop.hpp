@@ -18,4 +18,12 @@ struct PairLoops {
 /// -v4) asks for a lower one.
 PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision);
 
+/// The passes of solids (solid_schemes.hpp), with Wendland's kernel.
+struct SolidLoops {
+  void (*deformation)(const PairInput&, const PairOutput&);
+  void (*forces)(const PairInput&, const PairOutput&);
+  void (*contact)(const PairInput&, const PairOutput&);
+};
+SolidLoops solid_loops();
+
 }  // namespace undex::sph

@@ -16,6 +16,9 @@ namespace undex::sph {
   void monaghan_rates(const PairInput&, const PairOutput&);                                                    \
   template <class Kernel, class T>                                                                             \
   void riemann_rates(const PairInput&, const PairOutput&);                                                     \
+  void solid_deformation(const PairInput&, const PairOutput&);                                                 \
+  void solid_forces(const PairInput&, const PairOutput&);                                                      \
+  void solid_contact(const PairInput&, const PairOutput&);                                                     \
   template <class Kernel, class T>                                                                             \
   PairLoops loops(SchemeName scheme, const char* name) {                                                       \
     if (scheme == SchemeName::riemann) return {name, true, Kernel::support, &riemann_rates<Kernel, T>};        \
@@ -87,6 +90,14 @@ PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision) 
     case 4: return v4::loops(kernel, scheme, precision, "x86-64-v4");
     case 3: return v3::loops(kernel, scheme, precision, "x86-64-v3");
     default: return v2::loops(kernel, scheme, precision, "x86-64-v2");
+  }
+}
+
+SolidLoops solid_loops() {
+  switch (machine_level()) {
+    case 4: return {&v4::solid_deformation, &v4::solid_forces, &v4::solid_contact};
+    case 3: return {&v3::solid_deformation, &v3::solid_forces, &v3::solid_contact};
+    default: return {&v2::solid_deformation, &v2::solid_forces, &v2::solid_contact};
   }
 }
 

@@ -26,6 +26,7 @@ class ParticleSystem {
   Fluid& fluid_;
   Solids& solids_;
   int wall_;
+  std::vector<Vec3> impulse_;  ///< [N s], per solid particle
 };
 
 }  // namespace undex::sph

@@ -28,6 +28,7 @@ struct Reconstruction {
     }
   };
   static constexpr bool symmetric = false;
+  static constexpr Partners partners = Partners::all;
   int dimension;
 
   explicit Reconstruction(const PairInput& in) : dimension(in.dimension) {}
@@ -69,7 +70,8 @@ struct Reconstruction {
   }
 
   /// Gradients of up to a vector of particles from their sums, in the order of Sums.
-  void store(const Vec<double>* s, bool gas, GradientRow* out, int count) const {
+  void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
+    GradientRow* out = in.gradient + first;
     using D = Vec<double>;
     const D one = broadcast(1.0), half = broadcast(double(least_filling));
     const D filling = gas ? maximum((s[0] + s[1] + s[2]) * (1.0 / dimension), half) : one;

@@ -25,10 +25,10 @@ namespace undex::sph::UNDEX_LEVEL {
 template <class V>
 struct ReconstructedState : FluidState<V> {
   V strain[6], climb[3], filling;
-  static constexpr bool with_gradients = true;
+  using Second = GradientRow;
 
   template <class Read>
-  UNDEX_INLINE void read_gradients(Read entry) {
+  UNDEX_INLINE void read_second(Read entry) {
     for (int k = 0; k < 6; ++k) strain[k] = entry(k);
     for (int k = 0; k < 3; ++k) climb[k] = entry(6 + k);
     filling = entry(9);
@@ -42,6 +42,7 @@ struct Riemann {
   using Wall = WallState<V>;
   using Sums = FluidSums<V>;
   static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::all;
 
   explicit Riemann(const PairInput&) {}
 

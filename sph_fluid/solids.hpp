@@ -65,6 +65,7 @@ class Solids {
   std::span<const Vec3> positions() const;      ///< [m]
   std::span<const Vec3> velocities() const;     ///< [m/s], at time()
   std::span<const Vec3> accelerations() const;  ///< [m/s^2]
+  double particle_mass(std::size_t particle) const;  ///< [kg]
   Mat3 stress(std::size_t particle) const;      ///< Cauchy [Pa]
   double maximum_pressure() const;              ///< [Pa]
 

@@ -1,0 +1,65 @@
+// The passes of solids over pairs of the present: stresses and forces of bodies in an updated Lagrangian description, and
+// contact between bodies of either. Particles are copied into rows sorted by cell, and what they receive is copied back.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sph_fluid/blocks.hpp"
+#include "sph_fluid/cell_list.hpp"
+#include "sph_fluid/pair_loop.hpp"
+#include "sph_fluid/settings.hpp"
+#include "sph_fluid/solid_particles.hpp"
+
+namespace undex::sph {
+
+class SolidPairs {
+ public:
+  /// A body's particles.
+  struct Range {
+    std::uint32_t begin, end;
+    double spacing, h;     ///< [m]
+    bool updated;          ///< does it work with the pairs of the present?
+    const SolidBody* body;
+  };
+  SolidPairs(const Settings& settings, std::vector<Range> ranges);
+  ~SolidPairs();
+  SolidPairs(const SolidPairs&) = delete;
+  SolidPairs& operator=(const SolidPairs&) = delete;
+
+  /// After a step dt [s] (zero: at the start): stresses of the updated bodies, and the forces on all. `acceleration`
+  /// [m/s^2] predicts velocities for the viscosity.
+  void add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+
+  /// Outward normal of a particle at its body's border; zero inside [-].
+  const Vec3& outward(std::uint32_t particle) const { return outward_[particle]; }
+  long long interactions() const { return interaction_sum_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  void pack(const SolidParticles& particles);
+  PairInput input();
+  void update_stresses(SolidParticles& particles, double dt);
+  void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+  void hand_back(SolidParticles& particles) const;
+
+  const Settings& settings_;
+  SolidLoops loops_ = solid_loops();
+  std::vector<Range> ranges_;
+  std::vector<CellList> cells_;
+  std::vector<GroupView> views_;
+  BlockOrder blocks_;
+  bool updated_ = false;
+  std::vector<std::uint32_t> particle_;            ///< of each row
+  std::vector<double> x_, y_, z_;
+  std::vector<FluidRow> rows_;
+  std::vector<SolidRow> solid_;
+  std::vector<DeformationRow> deformation_;
+  std::vector<SumRow> sums_;
+  std::vector<Vec3> outward_;
+  std::vector<long long> interactions_;
+  std::vector<Scratch> scratch_;
+  long long interaction_sum_ = 0;
+};
+
+}  // namespace undex::sph

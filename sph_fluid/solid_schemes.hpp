@@ -1,0 +1,195 @@
+// Passes over pairs of solid particles in the present configuration.
+//   VelocityGradient  L_i = (sum_j V_j (v_j - v_i) grad W_ij^T) B_i,  B_i = (sum_j V_j (x_j - x_i) grad W_ij^T)^-1
+//   SolidForces       f_i = sum_j V_i V_j (sigma_i B_i + sigma_j B_j) grad W_ij, the exact derivative of the power of the
+//                     stresses with L (Bonet and Lok 1999, doi 10.1016/S0045-7825(99)00051-1), with Monaghan's viscosity
+//                     and an artificial stress, both along the pair: momentum and angular momentum are conserved
+//   SolidContact      particles of different bodies: the normal pressure of an acoustic contact, never a tension
+// The artificial stress (Gray, Monaghan, Swift 2001, doi 10.1016/S0045-7825(01)00254-7) acts here along the pair, on the
+// tension e . sigma e, with F(r)/F(dx) in place of W(r)/W(dx).
+#pragma once
+
+#include "sph_fluid/fluid_state.hpp"
+
+namespace undex::sph::UNDEX_LEVEL {
+
+/// Solids meet no rigid wall's particles.
+template <class V>
+struct NoWall {
+  template <class Read>
+  UNDEX_INLINE void read(Read) {}
+};
+
+template <class T>
+struct VelocityGradient {
+  using V = Vec<T>;
+  using State = FluidState<V>;
+  using Wall = NoWall<V>;
+  struct Sums {
+    V m[6] = {};       // xx, yy, zz, xy, yz, zx of sum V_j d d^T F, negative
+    V v[9] = {};       // sum V_j (v_j - v_i)_a (d)_b F at 3a + b
+    V border[3] = {};  // sum V_j d F
+    static constexpr int count = 18;
+    static constexpr bool is_maximum(int) { return false; }
+
+    template <class Visit>
+    UNDEX_INLINE void each(Visit visit) {
+      for (int k = 0; k < 6; ++k) visit(m[k], k);
+      for (int k = 0; k < 9; ++k) visit(v[k], 6 + k);
+      for (int k = 0; k < 3; ++k) visit(border[k], 15 + k);
+    }
+  };
+  static constexpr bool symmetric = false;
+  static constexpr Partners partners = Partners::own_body;
+  int dimension;
+
+  explicit VelocityGradient(const PairInput& in) : dimension(in.dimension) {}
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& s, Sums&) const {
+    const V FV = pair.F * j.volume;
+    const V wx = FV * pair.dx, wy = FV * pair.dy, wz = FV * pair.dz;
+    s.m[0] -= pair.dx * wx;
+    s.m[1] -= pair.dy * wy;
+    s.m[2] -= pair.dz * wz;
+    s.m[3] -= pair.dx * wy;
+    s.m[4] -= pair.dy * wz;
+    s.m[5] -= pair.dz * wx;
+    const V ux = j.vx - i.vx, uy = j.vy - i.vy, uz = j.vz - i.vz;
+    s.v[0] += ux * wx;
+    s.v[1] += ux * wy;
+    s.v[2] += ux * wz;
+    s.v[3] += uy * wx;
+    s.v[4] += uy * wy;
+    s.v[5] += uy * wz;
+    s.v[6] += uz * wx;
+    s.v[7] += uz * wy;
+    s.v[8] += uz * wz;
+    s.border[0] += wx;
+    s.border[1] += wy;
+    s.border[2] += wz;
+  }
+  UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
+
+  /// Fragments of too few particles have no inverse: they get the uncorrected sums.
+  void store(const Vec<double>* s, bool, const PairInput& in, std::uint32_t first, int count) const {
+    DeformationRow* out = in.deformation + first;
+    for (int l = 0; l < count; ++l) {
+      const double xx = s[0][l], yy = dimension < 2 ? 1.0 : s[1][l], zz = dimension < 3 ? 1.0 : s[2][l], xy = s[3][l],
+                   yz = s[4][l], zx = s[5][l];
+      const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
+      const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
+      const double determinant = xx * a + xy * b + zx * c;
+      const bool good = determinant > 0.05;
+      const double inverse = good ? 1.0 / determinant : 0.0;
+      double* B = out[l].correction;
+      B[0] = good ? a * inverse : 1.0, B[1] = good ? d * inverse : 1.0, B[2] = good ? f * inverse : 1.0;
+      B[3] = b * inverse, B[4] = e * inverse, B[5] = c * inverse;
+      for (int r = 0; r < 3; ++r) {
+        const double gx = s[6 + 3 * r][l], gy = s[7 + 3 * r][l], gz = s[8 + 3 * r][l];
+        out[l].gradient[3 * r] = gx * B[0] + gy * B[3] + gz * B[5];
+        out[l].gradient[3 * r + 1] = gx * B[3] + gy * B[1] + gz * B[4];
+        out[l].gradient[3 * r + 2] = gx * B[5] + gy * B[4] + gz * B[2];
+        out[l].border[r] = s[15 + r][l];
+      }
+    }
+  }
+};
+
+/// A particle with its stress; `read_second` gives entry k of SolidRow.
+template <class V>
+struct SolidState : FluidState<V> {
+  V corrected[9], stress[6];
+  using Second = SolidRow;
+
+  template <class Read>
+  UNDEX_INLINE void read_second(Read entry) {
+    for (int k = 0; k < 9; ++k) corrected[k] = entry(k);
+    for (int k = 0; k < 6; ++k) stress[k] = entry(9 + k);
+  }
+
+  /// d . sigma d
+  UNDEX_INLINE V along(const Pair<V>& pair) const {
+    const V x = pair.dx, y = pair.dy, z = pair.dz;
+    return stress[0] * x * x + stress[1] * y * y + stress[2] * z * z +
+           2 * (stress[3] * y * z + stress[4] * z * x + stress[5] * x * y);
+  }
+};
+
+template <class T>
+struct SolidForces {
+  using V = Vec<T>;
+  using State = SolidState<V>;
+  using Wall = NoWall<V>;
+  using Sums = FluidSums<V>;
+  static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::own_body;
+  T alpha, beta, repulsion, spacing2;
+
+  explicit SolidForces(const PairInput& in)
+      : alpha(T(in.alpha)), beta(T(in.beta)), repulsion(T(in.artificial_stress)), spacing2(T(in.spacing * in.spacing)) {}
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    const V x = pair.dx, y = pair.dy, z = pair.dz, F = pair.F;
+    const V *a = i.corrected, *b = j.corrected;
+    const V tx = (a[0] + b[0]) * x + (a[1] + b[1]) * y + (a[2] + b[2]) * z;
+    const V ty = (a[3] + b[3]) * x + (a[4] + b[4]) * y + (a[5] + b[5]) * z;
+    const V tz = (a[6] + b[6]) * x + (a[7] + b[7]) * y + (a[8] + b[8]) * z;
+    si.fx += (F * j.volume) * tx;
+    si.fy += (F * j.volume) * ty;
+    si.fz += (F * j.volume) * tz;
+    sj.fx -= (F * i.volume) * tx;
+    sj.fy -= (F * i.volume) * ty;
+    sj.fz -= (F * i.volume) * tz;
+
+    const V vr = (i.vx - j.vx) * x + (i.vy - j.vy) * y + (i.vz - j.vz) * z;
+    const V inverse_r2 = reciprocal(pair.r2 + T(1e-30));
+    // Monaghan's viscosity (eq. 6).
+    const V mu = pair.h * minimum(vr, V{}) * reciprocal(pair.r2 + T(0.01) * (pair.h * pair.h));
+    const V density = i.rho + j.rho;
+    const V viscous = i.rho * j.rho * mu * (2 * beta * mu - alpha * (i.c + j.c)) * reciprocal(density);
+    // A share of the tension along the pair, rising steeply for particles nearer than a spacing.
+    const V tension = (maximum(i.along(pair), V{}) + maximum(j.along(pair), V{})) * inverse_r2;
+    const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
+    const V repulsive = keep(pair.near, repulsion * tension * (nearness * nearness));
+    const V central = F * (viscous + repulsive);
+    add_force(central, pair, i.volume, j.volume, si, sj);
+    const V power = T(0.5) * central * vr;
+    si.heat += j.volume * power;
+    sj.heat += i.volume * power;
+    const V closing = keep(pair.near, -mu);
+    si.closing = maximum(si.closing, closing);
+    sj.closing = maximum(sj.closing, closing);
+  }
+  UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
+};
+
+template <class T>
+struct SolidContact {
+  using V = Vec<T>;
+  using State = SolidState<V>;
+  using Wall = NoWall<V>;
+  using Sums = FluidSums<V>;
+  static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::other_bodies;
+
+  explicit SolidContact(const PairInput&) {}
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    const V inverse_r2 = reciprocal(pair.r2 + T(1e-30)), inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
+    const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
+    const V closing = -vr * inverse_r;
+    const V pi = -i.along(pair) * inverse_r2, pj = -j.along(pair) * inverse_r2;
+    const V Zi = i.rho * i.c, Zj = j.rho * j.c;
+    const V p = maximum((Zj * pi + Zi * pj + Zi * Zj * closing) * reciprocal(Zi + Zj), V{});
+    const V central = 2 * pair.F * p;
+    add_force(central, pair, i.volume, j.volume, si, sj);
+    const V power = T(0.5) * central * vr;
+    si.heat += j.volume * power;
+    sj.heat += i.volume * power;
+    const V speed = keep(pair.near, closing);
+    si.closing = maximum(si.closing, speed);
+    sj.closing = maximum(sj.closing, speed);
+  }
+  UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
+};
+
+}  // namespace undex::sph::UNDEX_LEVEL
