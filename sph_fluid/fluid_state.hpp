@@ -12,7 +12,7 @@ inline constexpr int parity_of(const WallRow*, int k) { return k < 3 ? 1 << k : 
 inline constexpr int parity_of(const GradientRow*, int k) { return k < 3 ? 0 : k < 6 ? (k == 5 ? 5 : 3 << (k - 3)) : 1 << (k - 6); }
 inline constexpr int parity_of(const SolidRow*, int k) {
   constexpr int shear[3] = {6, 5, 3};
-  return k < 9 ? (1 << k / 3) ^ (1 << k % 3) : k < 12 ? 0 : shear[k - 12];
+  return k < 9 ? (1 << k / 3) ^ (1 << k % 3) : (k - 9) % 6 < 3 ? 0 : shear[(k - 9) % 6 - 3];  // shear_sound is k = 21
 }
 
 /// A row as an array of its numbers.

@@ -32,9 +32,10 @@ struct GradientRow {
 inline constexpr float least_filling = 0.5f;
 
 /// What pairs of solid particles read beside FluidRow [Pa]: sigma B, row by row, B being the correction of kernel gradients
-/// (solid_schemes.hpp); and sigma itself: xx, yy, zz, yz, zx, xy.
+/// (solid_schemes.hpp); sigma itself: xx, yy, zz, yz, zx, xy; the rate of strain, in the same order [1/s]; and
+/// the speed of shear waves [m/s].
 struct SolidRow {
-  double corrected[9], stress[6];
+  double corrected[9], stress[6], strain[6], shear_sound;
 };
 
 /// What a solid particle learns from its body's others: velocity gradient d v_a/d x_b at 3a + b [1/s], the correction B (xx,

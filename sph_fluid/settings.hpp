@@ -138,11 +138,11 @@ struct SolidBody {
 struct SolidNumerics {
   double eta = 1.3;               ///< h/dx
   double courant = 0.5;           ///< of the stable step, as estimated from h and the longitudinal wave
-  double linear_viscosity = 0.06; ///< total Lagrangian: bulk viscosity on compression, as the elements' (fem_structure)
+  double linear_viscosity = 0.06; ///< bulk viscosity on compression, as the elements have it (fem_structure)
   double quadratic_viscosity = 1.2;
   double hourglass = 0.1;         ///< total Lagrangian: stiffness of what no deformation gradient sees, in shear moduli
-  double alpha = 1.0, beta = 2.0; ///< updated Lagrangian and contact: Monaghan's viscosity
-  double artificial_stress = 0.2; ///< updated Lagrangian: share of a tension that repels particles too close (Gray, Monaghan 2001)
+  double alpha = 1.0, beta = 2.0; ///< updated Lagrangian: viscosity of pairs (solid_schemes.hpp)
+  double artificial_stress = 0.3; ///< updated Lagrangian: share of a tension that repels particles nearer than a spacing
 };
 
 /// A rigid, smooth plane that solids cannot pass; they may leave it again.

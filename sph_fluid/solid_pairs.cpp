@@ -113,6 +113,8 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
   constexpr std::uint32_t batch = materials::points_at_once;
   for (const Range& range : ranges_) {
     if (!range.updated) continue;
+    const BulkViscosity viscosity{settings_.solid_numerics.linear_viscosity, settings_.solid_numerics.quadratic_viscosity,
+                                  range.spacing};
 #pragma omp parallel for schedule(static)
     for (std::uint32_t first = range.begin; first < range.end; first += batch) {
       const std::uint32_t last = std::min(range.end, first + batch);
@@ -129,7 +131,7 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
         const double shrink = std::max(back.determinant(), 1e-3);
         step.append(i, back, Mat3::Identity(), p.rho[i] * shrink);
       }
-      if (dt > 0.0) update_stress(range.body->material, {}, step, dt, p);
+      if (dt > 0.0) update_stress(range.body->material, viscosity, step, dt, p);
     }
   }
 }
@@ -142,7 +144,8 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
       FluidRow& row = rows_[k];
       const Vec3 v = p.v[i] + 0.5 * dt * acceleration[i];
       row.vx = v[0], row.vy = v[1], row.vz = v[2];
-      const Mat3 sigma = p.stress(i);
+      Mat3 sigma = p.stress(i);
+      sigma.diagonal().array() -= p.viscous_pressure[i];
       SolidRow& solid = solid_[k];
       if (range.updated) {
         // Volumes stay those of the pass that found B: the power of the forces is then exactly that of the stresses.
@@ -152,12 +155,19 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
         const Mat3 corrected = (p.mass[i] / (p.rho[i] * row.volume)) * sigma * correction;
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b < 3; ++b) solid.corrected[3 * a + b] = corrected(a, b);
+        const double* g = deformation_[k].gradient;
+        for (int a = 0; a < 3; ++a) {
+          const int b = (a + 1) % 3, c = (a + 2) % 3;
+          solid.strain[a] = g[4 * a];
+          solid.strain[3 + a] = 0.5 * (g[3 * b + c] + g[3 * c + b]);
+        }
       } else {
         row.volume = p.mass[i] / p.rho[i];
       }
       row.rho = p.rho[i];
       row.c = p.sound[i];
       solid.stress[0] = sigma(0, 0), solid.stress[1] = sigma(1, 1), solid.stress[2] = sigma(2, 2);
+      solid.shear_sound = std::sqrt(range.body->material.shear_modulus / p.rho[i]);
       solid.stress[3] = sigma(1, 2), solid.stress[4] = sigma(2, 0), solid.stress[5] = sigma(0, 1);
     }
 }
@@ -169,9 +179,10 @@ void SolidPairs::hand_back(SolidParticles& p) const {
     for (std::uint32_t k = range.begin; k < range.end; ++k) {
       const std::uint32_t i = particle_[k];
       const SumRow& sum = sums_[k];
+      const double shear_sound = solid_[k].shear_sound;
       p.force[i] += rows_[k].volume * Vec3(sum.fx, sum.fy, sum.fz);
       p.heat[i] = rows_[k].volume * sum.heat / p.mass[i];
-      const double rate = (p.sound[i] * (1.0 + 0.6 * numerics.alpha) + 0.6 * numerics.beta * sum.closing) / range.spacing;
+      const double rate = (p.sound[i] + 0.6 * (numerics.alpha * shear_sound + numerics.beta * sum.closing)) / range.spacing;
       p.rate[i] = range.updated ? rate : std::max(p.rate[i], (p.sound[i] + sum.closing) / range.spacing);
     }
 }

@@ -1,11 +1,14 @@
 // Passes over pairs of solid particles in the present configuration.
 //   VelocityGradient  L_i = (sum_j V_j (v_j - v_i) grad W_ij^T) B_i,  B_i = (sum_j V_j (x_j - x_i) grad W_ij^T)^-1
 //   SolidForces       f_i = sum_j V_i V_j (sigma_i B_i + sigma_j B_j) grad W_ij, the exact derivative of the power of the
-//                     stresses with L (Bonet and Lok 1999, doi 10.1016/S0045-7825(99)00051-1), with Monaghan's viscosity
-//                     and an artificial stress, both along the pair: momentum and angular momentum are conserved
+//                     stresses with L (Bonet and Lok 1999, doi 10.1016/S0045-7825(99)00051-1), with a viscosity and an
+//                     artificial stress, both along the pair: momentum and angular momentum are conserved
 //   SolidContact      particles of different bodies: the normal pressure of an acoustic contact, never a tension
+// The viscosity is Monaghan's, but on the jump that is left of v_ij . e when the velocity gradients of both sides have
+// carried it to the middle (as riemann_scheme.hpp does), approaching or not, and with the speed of shear waves: none in
+// smooth motion, all of it where neighbours move against each other unseen by any gradient. (Shocks have their bulk viscosity.)
 // The artificial stress (Gray, Monaghan, Swift 2001, doi 10.1016/S0045-7825(01)00254-7) acts here along the pair, on the
-// tension e . sigma e, with F(r)/F(dx) in place of W(r)/W(dx).
+// tension e . sigma e, with (dx/r)^4 - 1 >= 0 in place of (W(r)/W(dx))^4.
 #pragma once
 
 #include "sph_fluid/fluid_state.hpp"
@@ -97,22 +100,24 @@ struct VelocityGradient {
 /// A particle with its stress; `read_second` gives entry k of SolidRow.
 template <class V>
 struct SolidState : FluidState<V> {
-  V corrected[9], stress[6];
+  V corrected[9], stress[6], strain[6], shear_sound;
   using Second = SolidRow;
 
   template <class Read>
   UNDEX_INLINE void read_second(Read entry) {
     for (int k = 0; k < 9; ++k) corrected[k] = entry(k);
     for (int k = 0; k < 6; ++k) stress[k] = entry(9 + k);
-  }
-
-  /// d . sigma d
-  UNDEX_INLINE V along(const Pair<V>& pair) const {
-    const V x = pair.dx, y = pair.dy, z = pair.dz;
-    return stress[0] * x * x + stress[1] * y * y + stress[2] * z * z +
-           2 * (stress[3] * y * z + stress[4] * z * x + stress[5] * x * y);
+    for (int k = 0; k < 6; ++k) strain[k] = entry(15 + k);
+    shear_sound = entry(21);
   }
 };
+
+/// d . t d
+template <class V>
+UNDEX_INLINE V along(const V (&t)[6], const Pair<V>& pair) {
+  const V x = pair.dx, y = pair.dy, z = pair.dz;
+  return t[0] * x * x + t[1] * y * y + t[2] * z * z + 2 * (t[3] * y * z + t[4] * z * x + t[5] * x * y);
+}
 
 template <class T>
 struct SolidForces {
@@ -126,6 +131,14 @@ struct SolidForces {
 
   explicit SolidForces(const PairInput& in)
       : alpha(T(in.alpha)), beta(T(in.beta)), repulsion(T(in.artificial_stress)), spacing2(T(in.spacing * in.spacing)) {}
+
+  /// van Leer's mean of two slopes, zero where they disagree in sign, never beyond the first.
+  UNDEX_INLINE static V limited(V a, V b) {
+    const V product = a * b;
+    const Mask<T> agree = product > 0;
+    const V share = keep(agree, 2 * b * reciprocal(agree ? a + b : broadcast(T(1))));
+    return a * minimum(share, broadcast(T(1)));
+  }
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     const V x = pair.dx, y = pair.dy, z = pair.dz, F = pair.F;
@@ -142,14 +155,15 @@ struct SolidForces {
 
     const V vr = (i.vx - j.vx) * x + (i.vy - j.vy) * y + (i.vz - j.vz) * z;
     const V inverse_r2 = reciprocal(pair.r2 + T(1e-30));
-    // Monaghan's viscosity (eq. 6).
-    const V mu = pair.h * minimum(vr, V{}) * reciprocal(pair.r2 + T(0.01) * (pair.h * pair.h));
+    const V left = limited(vr, 2 * along(i.strain, pair) - vr), right = limited(vr, 2 * along(j.strain, pair) - vr);
+    const V jump = vr - T(0.5) * (left + right);
+    const V mu = pair.h * jump * reciprocal(pair.r2 + T(0.01) * (pair.h * pair.h));
     const V density = i.rho + j.rho;
-    const V viscous = i.rho * j.rho * mu * (2 * beta * mu - alpha * (i.c + j.c)) * reciprocal(density);
-    // A share of the tension along the pair, rising steeply for particles nearer than a spacing.
-    const V tension = (maximum(i.along(pair), V{}) + maximum(j.along(pair), V{})) * inverse_r2;
+    const V viscous = i.rho * j.rho * mu * (2 * beta * minimum(mu, V{}) - alpha * (i.shear_sound + j.shear_sound)) * reciprocal(density);
+    // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
+    const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
     const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
-    const V repulsive = keep(pair.near, repulsion * tension * (nearness * nearness));
+    const V repulsive = keep(pair.near, repulsion * tension * maximum(nearness * nearness - 1, V{}));
     const V central = F * (viscous + repulsive);
     add_force(central, pair, i.volume, j.volume, si, sj);
     const V power = T(0.5) * central * vr;
@@ -177,7 +191,7 @@ struct SolidContact {
     const V inverse_r2 = reciprocal(pair.r2 + T(1e-30)), inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
     const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
     const V closing = -vr * inverse_r;
-    const V pi = -i.along(pair) * inverse_r2, pj = -j.along(pair) * inverse_r2;
+    const V pi = -along(i.stress, pair) * inverse_r2, pj = -along(j.stress, pair) * inverse_r2;
     const V Zi = i.rho * i.c, Zj = j.rho * j.c;
     const V p = maximum((Zj * pi + Zi * pj + Zi * Zj * closing) * reciprocal(Zi + Zj), V{});
     const V central = 2 * pair.F * p;

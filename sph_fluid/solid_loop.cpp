@@ -1,0 +1,11 @@
+// The solids' passes over pairs, compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+#include "sph_fluid/cluster_work.hpp"
+#include "sph_fluid/solid_schemes.hpp"
+
+namespace undex::sph::UNDEX_LEVEL {
+
+void solid_deformation(const PairInput& in, const PairOutput& out) { pass<WendlandC2, VelocityGradient, double>(in, out); }
+void solid_forces(const PairInput& in, const PairOutput& out) { pass<WendlandC2, SolidForces, double>(in, out); }
+void solid_contact(const PairInput& in, const PairOutput& out) { pass<WendlandC2, SolidContact, double>(in, out); }
+
+}  // namespace undex::sph::UNDEX_LEVEL
