@@ -13,6 +13,7 @@
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "materials/library.hpp"
+#include "output/files.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::app {
@@ -51,16 +52,6 @@ std::string whole_text(const fs::path& file) {
   return text.str();
 }
 
-/// Refuses a folder that holds something; the run makes it when the scene is known to be sound.
-void check_output(const fs::path& folder, bool force) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
-  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
-    throw UsageError("the output folder " + folder.string() +
-                     " is not empty; name another one with -o, or write over it with --force");
-}
-
 /// Folders that may hold scenes, the nearest first.
 std::vector<fs::path> case_folders() {
   std::vector<fs::path> folders;
@@ -97,7 +88,7 @@ int run_scene(const RunArguments& arguments) {
   options.verbosity = arguments.verbosity;
   options.scene_text = whole_text(scene.file);
   options.program = version_line();
-  check_output(options.output, arguments.force);
+  output::require_unused_folder(options.output, arguments.force);  // made when the scene is known to be sound
   return run(scene, options);
 }
 

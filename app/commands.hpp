@@ -19,8 +19,18 @@ struct RunArguments : SceneArguments {
   bool force = false;                  ///< an output folder that is not empty may be overwritten
 };
 
+struct CompareArguments {
+  std::vector<std::string> runs;       ///< folders of two runs or more
+  std::string reference;               ///< CSV; may be empty
+  std::string times;                   ///< "20,40,60" [us]; empty: chosen
+  std::string labels;                  ///< "FEM,SPH", one per run; empty: made from what differs
+  std::string output = "out/compare";
+  bool force = false;
+};
+
 int run_scene(const RunArguments& arguments);
 int check_scene(const SceneArguments& arguments);
+int compare_runs(const CompareArguments& arguments);
 int print_materials();
 int list_scenes();
 int print_version(bool json);

@@ -42,6 +42,22 @@ int dispatch(int argc, char** argv) {
   CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
   add_scene_arguments(*check, check_arguments);
 
+  CompareArguments compare_arguments;
+  CLI::App* comparison = program.add_subcommand(
+      "compare",
+      "finished runs beside each other: histories at common times, energies, errors, cost, and how far each is from the first");
+  comparison->add_option("runs", compare_arguments.runs, "output folders of two runs or more; the first is what the others are compared with")
+      ->required()
+      ->expected(2, -1);
+  comparison->add_option("--reference", compare_arguments.reference,
+                         "CSV: a table of metrics (cases/*/reference), or a history with the header time [s],pressure [Pa],...");
+  comparison->add_option("--at", compare_arguments.times,
+                         "times of the table's rows [us], such as 20,40,60; default: the reference table's, else round ones");
+  comparison->add_option("--label", compare_arguments.labels,
+                         "names of the runs, such as FEM,SPH; default: the settings that tell them apart");
+  comparison->add_option("-o,--output", compare_arguments.output, "output folder; default: out/compare");
+  comparison->add_flag("--force", compare_arguments.force, "write into an output folder that is not empty");
+
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
@@ -55,6 +71,7 @@ int dispatch(int argc, char** argv) {
   }
   if (*run) return run_scene(run_arguments);
   if (*check) return check_scene(check_arguments);
+  if (*comparison) return compare_runs(compare_arguments);
   if (*materials) return print_materials();
   if (*list) return list_scenes();
   if (*version) return print_version(json);

@@ -95,12 +95,6 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   return record;
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
-}
-
 /// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
 /// time: what goes off within a step is caught there, and named more closely.
 void expect_energy(const Simulation& simulation, bool& was_off) {
@@ -149,7 +143,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
   Simulation simulation(scene);
 
   // Now the scene is known to be sound: nothing was written for one that is not.
-  make_folder(folder);
+  output::make_folder(folder);
   output::write_text_atomically(folder / "scene.toml", options.scene_text);
   output::write_text_atomically(folder / "resolved.toml", resolved);
   std::filesystem::remove(folder / "summary.json");  // an older run's must not pass for this one's

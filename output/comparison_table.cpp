@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
 
 #include "core/errors.hpp"
+#include "output/text_table.hpp"
 
 namespace undex::output {
 
@@ -43,39 +43,10 @@ bool read_value(const std::string& cell, ReferenceTable::Value& value) {
   return sign == std::string::npos || read_number(cell.substr(sign + 2), value.uncertainty);
 }
 
-std::string print(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-// Four significant digits, without exponents for the magnitudes that occur in a table; times to a hundredth.
-std::string number(double value, const std::string& unit) {
-  if (std::isnan(value)) return "-";
-  if (unit == "us") return print("%.2f", value);
-  const double size = std::abs(value);
-  if (size >= 1e5 || (size > 0 && size < 1e-4)) return print("%.3e", value);
-  return print(size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : size >= 0.1 ? "%.3f" : "%.4f", value);
-}
-
-std::string difference(double mine, double theirs, const std::string& unit) {
-  if (std::isnan(mine) || std::isnan(theirs)) return "";
-  if (unit == "us") return print("%+.2f", mine - theirs);
-  return theirs == 0 ? "" : print("%+.1f%%", 100 * (mine - theirs) / std::abs(theirs));
-}
-
-// Terminal columns of UTF-8 text.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-std::string padded_left(const std::string& text, std::size_t columns) {
-  return std::string(columns - width(text), ' ') + text;
-}
-
-std::string padded_right(const std::string& text, std::size_t columns) {
-  return text + std::string(columns - width(text), ' ');
+const double* find_metric(const NamedNumbers& metrics, const std::string& name) {
+  for (const auto& [key, value] : metrics)
+    if (key == name) return &value;
+  return nullptr;
 }
 
 }  // namespace
@@ -117,60 +88,81 @@ ReferenceTable read_reference_table(const std::filesystem::path& path) {
   return table;
 }
 
-std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width) {
-  std::vector<std::vector<std::string>> lines{{"", "this run"}};
+std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference,
+                              std::size_t max_width) {
+  // Columns: the row's label, a value per run; then per source its value and each run's difference from it.
+  const std::size_t n = runs.size(), per_source = n + 1;
+  std::vector<std::vector<std::string>> lines(1, {""});
+  for (const LabelledMetrics& run : runs) lines[0].push_back(run.label);
   for (const std::string& source : reference.sources) {
     lines[0].push_back(source);
-    lines[0].push_back("");
+    lines[0].resize(lines[0].size() + n);
   }
   for (const ReferenceTable::Row& row : reference.rows) {
-    const auto mine = std::find_if(metrics.begin(), metrics.end(), [&](const auto& m) { return m.first == row.metric; });
-    if (mine == metrics.end()) continue;
-    const double value = mine->second * row.scale;
-    std::vector<std::string> line{row.label + (row.unit.empty() ? "" : " [" + row.unit + "]"), number(value, row.unit)};
+    std::vector<double> values;
+    bool known = false;
+    for (const LabelledMetrics& run : runs) {
+      const double* mine = find_metric(run.metrics, row.metric);
+      known = known || mine;
+      values.push_back(mine ? *mine * row.scale : nan);
+    }
+    if (!known) continue;
+    std::vector<std::string> line{row.label + (row.unit.empty() ? "" : " [" + row.unit + "]")};
+    for (const double value : values) line.push_back(number(value, row.unit));
     for (const ReferenceTable::Value& theirs : row.values) {
       line.push_back(number(theirs.value, row.unit) +
                      (std::isnan(theirs.uncertainty) ? "" : "±" + print("%g", theirs.uncertainty)));
-      line.push_back(difference(value, theirs.value, row.unit));
+      for (const double value : values) line.push_back(difference_text(difference(value, theirs.value, row.unit), row.unit));
     }
     lines.push_back(std::move(line));
   }
 
-  // A source's name spans its two columns: value and difference.
+  // A source's name spans its columns: value and differences.
   std::vector<std::size_t> widths(lines[0].size(), 0);
   for (std::size_t l = 0; l < lines.size(); ++l)
     for (std::size_t c = 0; c < widths.size(); ++c)
-      if (l > 0 || c < 2) widths[c] = std::max(widths[c], width(lines[l][c]));
-  for (std::size_t c = 2; c < widths.size(); c += 2) {
-    const std::size_t both = widths[c] + 1 + widths[c + 1], name = width(lines[0][c]);
-    if (name > both) widths[c] += name - both;
+      if (l > 0 || c <= n) widths[c] = std::max(widths[c], width(lines[l][c]));
+  const auto source_width = [&](std::size_t c) {
+    std::size_t total = widths[c];
+    for (std::size_t i = 1; i < per_source; ++i) total += 1 + widths[c + i];
+    return total;
+  };
+  for (std::size_t c = n + 1; c < widths.size(); c += per_source) {
+    const std::size_t all = source_width(c), name = width(lines[0][c]);
+    if (name > all) widths[c] += name - all;
   }
 
-  // As many sources side by side as fit; the others below, with the run's values once more.
-  const std::size_t left = widths[0] + 3 + widths[1];
+  // As many sources side by side as fit; the others below, with the runs' values once more.
+  std::size_t left = widths[0];
+  for (std::size_t r = 1; r <= n; ++r) left += 3 + widths[r];
   std::string text;
-  for (std::size_t begin = 2; begin < widths.size();) {
+  for (std::size_t begin = n + 1; begin < widths.size();) {
     std::size_t end = begin, total = left;
-    while (end < widths.size() && (end == begin || total + 4 + widths[end] + widths[end + 1] <= max_width)) {
-      total += 4 + widths[end] + widths[end + 1];
-      end += 2;
+    while (end < widths.size() && (end == begin || total + 3 + source_width(end) <= max_width)) {
+      total += 3 + source_width(end);
+      end += per_source;
     }
-    if (begin > 2) text += "\n";
+    if (begin > n + 1) text += "\n";
     for (std::size_t l = 0; l < lines.size(); ++l) {
-      bool known = l == 0 || begin == 2;
-      for (std::size_t c = begin; c < end; c += 2) known = known || lines[l][c] != "-";
+      bool known = l == 0 || begin == n + 1;
+      for (std::size_t c = begin; c < end; c += per_source) known = known || lines[l][c] != "-";
       if (!known) continue;
-      std::string line = padded_right(lines[l][0], widths[0]) + "   " + padded_left(lines[l][1], widths[1]);
-      for (std::size_t c = begin; c < end; c += 2)
-        line += "   " + (l == 0 ? padded_left(lines[0][c], widths[c] + 1 + widths[c + 1])
-                                : padded_left(lines[l][c], widths[c]) + " " +
-                                      padded_left(lines[l][c + 1], widths[c + 1]));
+      std::string line = padded_right(lines[l][0], widths[0]);
+      for (std::size_t r = 1; r <= n; ++r) line += "   " + padded_left(lines[l][r], widths[r]);
+      for (std::size_t c = begin; c < end; c += per_source) {
+        line += "   " + padded_left(lines[l][c], l == 0 ? source_width(c) : widths[c]);
+        for (std::size_t i = 1; l > 0 && i < per_source; ++i) line.append(" ").append(padded_left(lines[l][c + i], widths[c + i]));
+      }
       line.erase(line.find_last_not_of(' ') + 1);
       text += line + "\n" + (l == 0 ? std::string(total, '-') + "\n" : "");
     }
     begin = end;
   }
   return text;
+}
+
+std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width) {
+  return format_comparison({{"this run", metrics}}, reference, max_width);
 }
 
 }  // namespace undex::output

@@ -29,10 +29,19 @@ struct ReferenceTable {
 /// Throws FileError, naming path and line, when the file cannot be read or understood.
 ReferenceTable read_reference_table(const std::filesystem::path& path);
 
-/// One line per row of the reference: the run's value, then each source's value and the run's difference from it: in the
-/// unit itself for times (unit "us"), in percent for all else. What the run or the source does not have is "-"; rows that
-/// the run does not know at all (a time that it did not reach) are left out. Sources that do not fit into max_width
-/// columns follow in a further block.
+/// A run's metrics under the name that heads its column.
+struct LabelledMetrics {
+  std::string label;
+  NamedNumbers metrics;
+};
+
+/// One line per row of the reference: a value per run, then each source's value and every run's difference from it: in
+/// the unit itself for times (unit "us"), in percent for all else. What a run or the source does not have is "-"; rows
+/// that no run knows at all (a time that none reached) are left out. Sources that do not fit into max_width columns follow
+/// in a further block.
+std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference,
+                              std::size_t max_width = 120);
+/// The same of one run, headed "this run".
 std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference,
                               std::size_t max_width = 120);
 

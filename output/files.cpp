@@ -78,6 +78,22 @@ void write_text_atomically(const std::filesystem::path& path, const std::string&
   put_in_place(temporary, path);
 }
 
+void require_unused_folder(const std::filesystem::path& folder, bool force) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
+  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
+    throw UsageError("the output folder " + folder.string() +
+                     " is not empty; name another one with -o, or write over it with --force");
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");
+}
+
 void require_space(const std::filesystem::path& path, double bytes) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   struct statvfs state {};

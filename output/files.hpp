@@ -19,6 +19,12 @@ void put_in_place(const std::filesystem::path& temporary, const std::filesystem:
 /// The name under which `path` is written until it is finished (same folder, so that the rename is atomic).
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
+/// Refuses (UsageError) a folder in which something is already, unless `force`, and a path that is something else.
+void require_unused_folder(const std::filesystem::path& folder, bool force);
+
+/// Makes the folder and those above it. Throws FileError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Throws FileError unless the file system that holds `path` has room for `bytes` more: a disk that fills in the middle
 /// of an HDF5 write would leave a damaged file behind.
 void require_space(const std::filesystem::path& path, double bytes);

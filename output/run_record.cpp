@@ -1,19 +1,48 @@
 #include "output/run_record.hpp"
 
+#include <cmath>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
+#include "core/errors.hpp"
 #include "output/files.hpp"
 
 namespace undex::output {
 
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 // A number that is not finite becomes null: JSON has no NaN, and no event must look like an event at zero.
 nlohmann::ordered_json object(const NamedNumbers& numbers) {
   auto result = nlohmann::ordered_json::object();
   for (const auto& [name, value] : numbers) result[name] = value;
+  return result;
+}
+
+// The value at `key`, null as NaN; `value` stays as it is where there is no such key, or it holds something else.
+template <class Number>
+void get(const nlohmann::ordered_json& json, const char* key, Number& value) {
+  const auto found = json.find(key);
+  if (found == json.end()) return;
+  if (found->is_number()) value = found->template get<Number>();
+  if constexpr (std::is_floating_point_v<Number>)
+    if (found->is_null()) value = nan;
+}
+
+std::string text(const nlohmann::ordered_json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+NamedNumbers numbers(const nlohmann::ordered_json& json, const char* key) {
+  NamedNumbers result;
+  if (const auto found = json.find(key); found != json.end() && found->is_object())
+    for (const auto& [name, value] : found->items())
+      if (value.is_number() || value.is_null()) result.emplace_back(name, value.is_null() ? nan : value.get<double>());
   return result;
 }
 
@@ -51,6 +80,46 @@ std::string to_json(const RunRecord& record) {
 
 void write_summary(const std::filesystem::path& path, const RunRecord& record) {
   write_text_atomically(path, to_json(record));
+}
+
+RunRecord read_summary(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path.string() + ": cannot be read; check that it is there and yours to read");
+  const auto json = nlohmann::ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || text(json, "status").empty())
+    throw FileError(path.string() + ": not the summary of a run (no JSON object with a status); run the scene again");
+  RunRecord record;
+  record.scene = text(json, "scene");
+  record.status = text(json, "status");
+  record.message = text(json, "message");
+  record.program = text(json, "program");
+  get(json, "time_s", record.time_s);
+  get(json, "steps", record.steps);
+  get(json, "wall_time_s", record.wall_time_s);
+  get(json, "cpu_time_s", record.cpu_time_s);
+  get(json, "threads", record.threads);
+  get(json, "particles", record.particles);
+  get(json, "wall_particles", record.wall_particles);
+  get(json, "cells", record.cells);
+  get(json, "particle_updates", record.particle_updates);
+  get(json, "neighbour_interactions", record.neighbour_interactions);
+  get(json, "peak_memory_bytes", record.peak_memory_bytes);
+  record.mass_error = record.momentum_error = record.energy_error = nan;
+  get(json, "mass_error", record.mass_error);
+  get(json, "momentum_error", record.momentum_error);
+  get(json, "energy_error", record.energy_error);
+  const auto optional = [&](const char* key, std::optional<double>& value) {
+    if (!json.contains(key)) return;
+    value = nan;
+    get(json, key, *value);
+  };
+  optional("interface_energy_error", record.interface_energy_error);
+  optional("interface_impulse_error", record.interface_impulse_error);
+  for (const auto& [name, count] : numbers(json, "clamps"))
+    if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
+  record.passes = numbers(json, "passes");
+  record.metrics = numbers(json, "metrics");
+  return record;
 }
 
 std::int64_t peak_memory_bytes() {

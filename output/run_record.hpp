@@ -42,6 +42,10 @@ std::string to_json(const RunRecord& record);
 /// Writes to_json() atomically. Throws FileError.
 void write_summary(const std::filesystem::path& path, const RunRecord& record);
 
+/// Reads a summary.json back. Keys that it does not have keep their defaults (NaN for the errors), null becomes NaN, keys
+/// of a newer program are passed over. Throws FileError when the file cannot be read or is no run's summary.
+RunRecord read_summary(const std::filesystem::path& path);
+
 /// Largest resident memory of this process so far [bytes]; 0 where the system does not tell.
 std::int64_t peak_memory_bytes();
 

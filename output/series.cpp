@@ -119,16 +119,45 @@ double first_below(const Series& series, double level, double a, double b) {
   return nan;
 }
 
-Series read_series(const std::filesystem::path& path, const std::string& column) {
+Series running_integral(const Series& series) { return {series.t, cumulative(series)}; }
+
+Norms difference_norms(const Series& series, const Series& base, double a, double b) {
+  if (!(b > a) || !covers(series, a, b) || !covers(base, a, b)) return {nan, nan};
+  std::vector<double> times{a, b};
+  for (const Series* s : {&series, &base})
+    for (const double t : s->t)
+      if (t > a && t < b) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+
+  double sum = 0, squares = 0, peak = 0, left = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double value = value_held(base, times[i]), right = value_held(series, times[i]) - value;
+    peak = std::max(peak, std::abs(value));
+    if (i > 0) {
+      const double width = times[i] - times[i - 1], ends = std::abs(left) + std::abs(right);
+      // Where the difference changes sign in between its magnitude is two triangles.
+      if (left * right < 0)
+        sum += 0.5 * width * (left * left + right * right) / ends;
+      else
+        sum += 0.5 * width * ends;
+      squares += width / 3 * (left * left + left * right + right * right);
+    }
+    left = right;
+  }
+  if (!(peak > 0)) return {nan, nan};
+  return {sum / (b - a) / peak, std::sqrt(squares / (b - a)) / peak};
+}
+
+std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file)
-    throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the reference file's path");
-  Series result;
-  std::size_t wanted = 0;
+    throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the file's path");
+  std::vector<HistoryColumn> columns;
   bool header_seen = false;
-  long number = 0;
+  long line_number = 0;
   for (std::string line; std::getline(file, line);) {
-    ++number;
+    ++line_number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line[0] == '#') continue;
     std::vector<std::string> cells;
@@ -139,25 +168,39 @@ Series read_series(const std::filesystem::path& path, const std::string& column)
     }
     if (!header_seen) {
       header_seen = true;
-      if (column.empty())
-        wanted = 1;
-      else
-        for (std::size_t i = 1; i < cells.size() && wanted == 0; ++i)
-          if (cells[i].starts_with(column)) wanted = i;
-      if (wanted == 0 || wanted >= cells.size())
-        throw FileError("cannot read " + path.string() + ": no column '" + column + "' in its header '" + line + "'");
+      for (std::size_t i = 1; i < cells.size(); ++i) {
+        const std::size_t bracket = cells[i].rfind(" [");
+        const bool has_unit = bracket != std::string::npos && cells[i].back() == ']';
+        columns.push_back({cells[i].substr(0, has_unit ? bracket : cells[i].size()),
+                           has_unit ? cells[i].substr(bracket + 2, cells[i].size() - bracket - 3) : "-",
+                           {}});
+      }
       continue;
     }
-    char *end_t = nullptr, *end_y = nullptr;
-    const double t = std::strtod(cells[0].c_str(), &end_t);
-    const double y = wanted < cells.size() ? std::strtod(cells[wanted].c_str(), &end_y) : nan;
-    if (end_t == cells[0].c_str() || wanted >= cells.size() || end_y == cells[wanted].c_str())
-      throw FileError("cannot read " + path.string() + ":" + std::to_string(number) + ": expected numbers, found '" +
+    std::vector<double> row;
+    for (const std::string& cell : cells) {
+      char* end = nullptr;
+      row.push_back(std::strtod(cell.c_str(), &end));
+      if (end == cell.c_str()) row.clear();
+      if (row.empty()) break;
+    }
+    if (row.size() < columns.size() + 1)
+      throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) + ": expected numbers, found '" +
                       line + "'");
-    result.append(t, y);
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].series.append(row[0], row[i + 1]);
   }
   if (!header_seen) throw FileError("cannot read " + path.string() + ": the file is empty; a header row is expected");
-  return result;
+  return columns;
+}
+
+Series read_series(const std::filesystem::path& path, const std::string& column) {
+  std::string names;
+  for (HistoryColumn& found : read_history(path)) {
+    if (found.name.starts_with(column)) return std::move(found.series);
+    names += (names.empty() ? "" : ", ") + found.name;
+  }
+  throw FileError("cannot read " + path.string() + ": no column '" + column + "' in its header; it has " +
+                  (names.empty() ? "none after the time" : names));
 }
 
 }  // namespace undex::output

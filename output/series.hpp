@@ -49,9 +49,29 @@ double first_rise(const Series& series, double level, double a, double b);
 /// First time in a..b at which y is below `level`; NaN if it never is.
 double first_below(const Series& series, double level, double a, double b);
 
-/// The column of a CSV history (header row "time [s],name [unit]...", lines beginning with # are skipped), found by the
-/// beginning of its name; an empty name means the first after the time. Throws FileError when the file cannot be read or
-/// has no such column.
+/// Integral of y from the first sample on, at each sample.
+Series running_integral(const Series& series);
+
+struct Norms {
+  double l1, l2;
+};
+/// Mean and root-mean-square of series - base over a..b, the differences of piecewise linear functions integrated exactly,
+/// as a share of the largest |base| there. NaN where one of the two does not reach over a..b, or base is zero.
+Norms difference_norms(const Series& series, const Series& base, double a, double b);
+
+/// One column of a CSV history over its time column.
+struct HistoryColumn {
+  std::string name, unit;  ///< "pressure", "Pa"; a pure number's unit is "-"
+  Series series;
+};
+
+/// Every column after the time of a CSV history (header row "time [s],name [unit]...", lines beginning with # are
+/// skipped). Values that are not finite are kept. Throws FileError with the line when the file cannot be read or
+/// understood.
+std::vector<HistoryColumn> read_history(const std::filesystem::path& path);
+
+/// The column of a CSV history found by the beginning of its name; an empty name means the first after the time. Throws
+/// FileError as read_history, and when there is no such column.
 Series read_series(const std::filesystem::path& path, const std::string& column = "");
 
 }  // namespace undex::output

@@ -65,6 +65,7 @@ TEST(Series, ReadErrorsNameFileAndLine) {
   EXPECT_NE(message_of<FileError>([&] { read_series(path); }).find("No such file"), std::string::npos);
   std::ofstream(path) << "# comment\ntime [s],pressure [Pa]\n0,1\nhello,2\n";
   EXPECT_NE(message_of<FileError>([&] { read_series(path); }).find("a.csv:4"), std::string::npos);
+  std::ofstream(path) << "time [s],pressure [Pa]\n0,1\n";
   EXPECT_NE(message_of<FileError>([&] { read_series(path, "velocity"); }).find("velocity"), std::string::npos);
 }
 

@@ -1,0 +1,52 @@
+#include "output/text_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace undex::output {
+
+std::string print(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string number(double value, const std::string& unit) {
+  if (std::isnan(value)) return "-";
+  if (unit == "us") return print("%.2f", value);
+  const double size = std::abs(value);
+  if (unit.empty() && size >= 1000 && size < 1e9 && value == std::floor(value)) return print("%.0f", value);  // a count
+  if (size >= 1e5 || (size > 0 && size < 1e-4)) return print("%.3e", value);
+  return print(size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : size >= 0.1 ? "%.3f" : "%.4f", value);
+}
+
+double difference(double mine, double theirs, const std::string& unit) {
+  if (unit == "us") return mine - theirs;
+  return theirs == 0 ? std::numeric_limits<double>::quiet_NaN() : 100 * (mine - theirs) / std::abs(theirs);
+}
+
+std::string difference_text(double difference, const std::string& unit) {
+  if (std::isnan(difference)) return "";
+  const double least = unit == "us" ? 0.005 : 0.05;  // what would be printed as -0.0
+  if (std::abs(difference) < least) difference = 0;
+  if (unit == "us") return print("%+.2f", difference);
+  if (std::abs(difference) >= 1000) return difference > 0 ? ">999%" : "<-999%";
+  return print("%+.1f%%", difference);
+}
+
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string padded_left(const std::string& text, std::size_t columns) {
+  return std::string(columns - std::min(columns, width(text)), ' ') + text;
+}
+
+std::string padded_right(const std::string& text, std::size_t columns) {
+  return text + std::string(columns - std::min(columns, width(text)), ' ');
+}
+
+}  // namespace undex::output

@@ -1,0 +1,28 @@
+// Cells of text tables: numbers as people read them, padding that counts what a terminal shows.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace undex::output {
+
+/// printf of one number.
+std::string print(const char* format, double value);
+
+/// Four significant digits, without exponents for the magnitudes that occur in a table; times ("us") to a hundredth. NaN
+/// is "-".
+std::string number(double value, const std::string& unit);
+
+/// Difference of `mine` from `theirs`: in the unit itself for times ("us"), in percent of |theirs| for all else. NaN where
+/// either is NaN, or a percentage of zero would be asked for.
+double difference(double mine, double theirs, const std::string& unit);
+/// The same as text, signed; percentages without a meaning beyond "very different" are cut. NaN is empty.
+std::string difference_text(double difference, const std::string& unit);
+
+/// Terminal columns of UTF-8 text.
+std::size_t width(const std::string& text);
+/// Text that is wider than `columns` stays as it is.
+std::string padded_left(const std::string& text, std::size_t columns);
+std::string padded_right(const std::string& text, std::size_t columns);
+
+}  // namespace undex::output
