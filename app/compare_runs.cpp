@@ -253,15 +253,20 @@ void attach_reference(std::vector<Compared>& all, const std::vector<HistoryColum
 
 // ------------------------------------------------------------------------------------------------ blocks
 
-/// The times of a reference table's rows, as the names of its metrics have them, within 0..end.
+/// Time [s] of a metric "<quantity><time>us...", such as displacement_30us_m; NaN where it is none.
+double time_of_metric(const std::string& metric, const std::string& quantity) {
+  if (!metric.starts_with(quantity)) return nan;
+  char* end = nullptr;
+  const double time = std::strtod(metric.c_str() + quantity.size(), &end);
+  return end != metric.c_str() + quantity.size() && std::string(end).starts_with("us") ? 1e-6 * time : nan;
+}
+
+/// The times of a reference table's rows within 0..end.
 std::vector<double> reference_times(const output::ReferenceTable& table, double end) {
   std::set<double> times;
   for (const output::ReferenceTable::Row& row : table.rows)
     for (const char* quantity : {"displacement_", "wall_velocity_", "plastic_strain_"})
-      if (row.metric.starts_with(quantity)) {
-        const double time = 1e-6 * std::strtod(row.metric.c_str() + std::string(quantity).size(), nullptr);
-        if (time > 0 && time <= end * (1 + 1e-9)) times.insert(time);
-      }
+      if (const double time = time_of_metric(row.metric, quantity); time > 0 && time <= end * (1 + 1e-9)) times.insert(time);
   return {times.begin(), times.end()};
 }
 
@@ -307,7 +312,8 @@ ComparedBlock result_block(const std::vector<Run>& runs) {
   std::vector<std::string> names;
   for (const Run& run : runs)
     for (const auto& [name, ignored] : run.folder.record.metrics) {
-      const bool at_time = name.starts_with("displacement_") || name.starts_with("wall_velocity_") || name.starts_with("plastic_strain_");
+      const bool at_time = !std::isnan(time_of_metric(name, "displacement_")) || !std::isnan(time_of_metric(name, "wall_velocity_")) ||
+                           !std::isnan(time_of_metric(name, "plastic_strain_"));
       if (!at_time && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   for (const std::string& name : names) {
@@ -343,7 +349,7 @@ ComparedBlock cost_block(const std::vector<Run>& runs) {
   add_row(block, runs, "steps", "", [&](const RunRecord& r) { return count(r.steps); });
   add_row(block, runs, "particles", "", [&](const RunRecord& r) { return count(r.particles); });
   add_row(block, runs, "cells", "", [&](const RunRecord& r) { return count(r.cells); });
-  add_row(block, runs, "particle updates per CPU second", "million/s", [&](const RunRecord& r) {
+  add_row(block, runs, "particle updates", "million/CPU s", [&](const RunRecord& r) {
     return r.cpu_time_s > 0 ? 1e-6 * count(r.particle_updates) / r.cpu_time_s : nan;
   });
   add_row(block, runs, "memory", "MB", [&](const RunRecord& r) { return 1e-6 * count(r.peak_memory_bytes); });
@@ -450,28 +456,46 @@ std::vector<ComparedBlock> reference_blocks(const std::vector<Run>& runs, const 
   return blocks;
 }
 
-/// curves.csv: every history that two runs or more have, one sample a line, for plots.
-std::string curves_csv(const std::vector<Compared>& all, const std::vector<std::string>& labels) {
+/// The lines of curves.csv of one curve.
+std::string curve_lines(const Compared& curve, const std::string& label, const Series& series) {
+  const Quantity& quantity = curve.quantity;
+  std::string head = output::csv_row({quantity.probe, curve.kind, quantity.name, quantity.unit, label});
+  head.back() = ',';  // the line goes on
+  std::string text;
+  char numbers[64];
+  for (std::size_t i = 0; i < series.t.size(); ++i) {
+    std::snprintf(numbers, sizeof numbers, "%.9g,%.9g\n", series.t[i], series.y[i]);
+    text += head;
+    text += numbers;
+  }
+  return text;
+}
+
+/// curves.csv: every history that two runs or more have, one sample a line, for plots; and the points that the sources of
+/// a reference table give of the compared probe's motion.
+std::string curves_csv(const std::vector<Compared>& all, const std::vector<std::string>& labels,
+                       const std::optional<output::ReferenceTable>& table) {
   std::string text = "probe,kind,quantity,unit,run,time [s],value\n";
   const auto add = [&](const Compared& each) {
-    const Quantity& quantity = each.quantity;
-    const auto put = [&](const std::string& label, const Series& series) {
-      std::string head = output::csv_row({quantity.probe, each.kind, quantity.name, quantity.unit, label});
-      head.back() = ',';  // the line goes on
-      char numbers[64];
-      for (std::size_t i = 0; i < series.t.size(); ++i) {
-        std::snprintf(numbers, sizeof numbers, "%.9g,%.9g\n", series.t[i], series.y[i]);
-        text += head + numbers;
-      }
-    };
-    for (std::size_t r = 0; r < labels.size(); ++r) put(labels[r], quantity.runs[r]);
-    put("reference", quantity.reference);
+    for (std::size_t r = 0; r < labels.size(); ++r) text += curve_lines(each, labels[r], each.quantity.runs[r]);
+    text += curve_lines(each, "reference", each.quantity.reference);
   };
+  std::set<std::string> met;
   for (const Compared& each : all) {
     if (each.quantity.count() < 2) continue;
     add(each);
     if (is_pressure(each))
       for (const Compared& more : derived(each)) add(more);
+    const bool motion = each.quantity.name == "radial displacement" || each.quantity.name == "radial velocity";
+    if (!table || !motion || !met.insert(each.quantity.name).second) continue;  // only of the first probe: the compared one
+    for (std::size_t s = 0; s < table->sources.size(); ++s) {
+      Series points;
+      for (const output::ReferenceTable::Row& row : table->rows) {
+        const double time = time_of_metric(row.metric, each.column == "velocity" ? "wall_velocity_" : "displacement_");
+        if (!std::isnan(time) && !std::isnan(row.values[s].value)) points.append(time, row.values[s].value / row.scale);
+      }
+      text += curve_lines(each, table->sources[s], points);
+    }
   }
   return text;
 }
@@ -559,10 +583,13 @@ int compare_runs(const CompareArguments& arguments) {
   if (!only_once.empty()) notes.push_back("in one run only: " + only_once);
 
   std::vector<ComparedBlock> blocks = history_blocks(all, times);
-  for (ComparedBlock& block : std::array{result_block(runs), cost_block(runs), error_block(runs), norm_block(all)})
+  for (ComparedBlock& block : std::array{result_block(runs), cost_block(runs), error_block(runs)})
     if (!block.rows.empty()) blocks.push_back(std::move(block));
+  const ComparedBlock norms = norm_block(all);
 
   std::string text = runs_text(runs, labels) + settings_text(differing, labels) + output::format_blocks(blocks, labels);
+  if (!norms.rows.empty()) text += output::format_blocks({norms}, labels);  // narrow numbers, long names: widths of its own
+  blocks.push_back(norms);
   if (reference.table)
     text += "\nbeside the reference; after each source's value every run's difference from it\n" +
             output::format_comparison(metrics, *reference.table);
@@ -576,7 +603,7 @@ int compare_runs(const CompareArguments& arguments) {
     for (ComparedBlock& block : reference_blocks(runs, *reference.table)) blocks.push_back(std::move(block));
   output::write_text_atomically(folder / "comparison.csv",
                                 output::csv_header(labels) + settings_csv(differing) + output::blocks_csv(blocks));
-  output::write_text_atomically(folder / "curves.csv", curves_csv(all, labels));
+  output::write_text_atomically(folder / "curves.csv", curves_csv(all, labels, reference.table));
   std::printf("%s", text.c_str());
   std::printf("%s and curves.csv are written. Pictures: /usr/bin/python3 scripts/plot.py --compare %s\n",
               (folder / "comparison.csv").c_str(), folder.c_str());

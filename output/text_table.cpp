@@ -17,9 +17,9 @@ std::string number(double value, const std::string& unit) {
   if (std::isnan(value)) return "-";
   if (unit == "us") return print("%.2f", value);
   const double size = std::abs(value);
-  if (unit.empty() && size >= 1000 && size < 1e9 && value == std::floor(value)) return print("%.0f", value);  // a count
-  if (size >= 1e5 || (size > 0 && size < 1e-4)) return print("%.3e", value);
-  return print(size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : size >= 0.1 ? "%.3f" : "%.4f", value);
+  if (unit.empty() && size < 1e9 && value == std::floor(value)) return print("%.0f", value);  // a count
+  if (size >= 1e5 || (size > 0 && size < 1e-3)) return print("%.3e", value);
+  return print(size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : size >= 0.1 ? "%.3f" : size >= 0.01 ? "%.4f" : "%.5f", value);
 }
 
 double difference(double mine, double theirs, const std::string& unit) {
@@ -33,7 +33,7 @@ std::string difference_text(double difference, const std::string& unit) {
   if (std::abs(difference) < least) difference = 0;
   if (unit == "us") return print("%+.2f", difference);
   if (std::abs(difference) >= 1000) return difference > 0 ? ">999%" : "<-999%";
-  return print("%+.1f%%", difference);
+  return print(std::abs(difference) >= 99.95 ? "%+.0f%%" : "%+.1f%%", difference);
 }
 
 std::size_t width(const std::string& text) {

@@ -9,8 +9,8 @@ namespace undex::output {
 /// printf of one number.
 std::string print(const char* format, double value);
 
-/// Four significant digits, without exponents for the magnitudes that occur in a table; times ("us") to a hundredth. NaN
-/// is "-".
+/// Three or four significant digits, without exponents for the magnitudes that occur in a table; times ("us") to a
+/// hundredth; whole numbers without a unit as such. NaN is "-".
 std::string number(double value, const std::string& unit);
 
 /// Difference of `mine` from `theirs`: in the unit itself for times ("us"), in percent of |theirs| for all else. NaN where

@@ -2,8 +2,9 @@
 """Pictures of a finished (or running) undex run: histories against the references, the mid-plane's pressure, the energies.
 
 Usage: /usr/bin/python3 scripts/plot.py DIR [--reference FOLDER] [--times 15,30,...] [--dpi N]
+       /usr/bin/python3 scripts/plot.py --compare DIR [--dpi N]      DIR: what undex compare wrote
 
-Reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part and fields/structure_*.hdf as far
+The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part and fields/structure_*.hdf as far
 as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py (Debian's own).
 """
 import argparse
@@ -433,16 +434,168 @@ def plot_mid_plane(run, wanted_us):
     return figure
 
 
+# ------------------------------------------------------------------------------------------- several runs
+
+# Colours that all eyes tell apart (Okabe and Ito); line styles tell the runs apart in grey too.
+RUN_COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+RUN_LINES = ["-", "--", "-.", (0, (1, 1)), (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2))]
+REFERENCE_LABEL = "reference"
+SOURCE_MARKERS = "osD^vx+"  # of a reference table's sources
+
+
+def panels(count):
+    """Rows and columns of a figure with so many panels."""
+    columns = 2 if count in (2, 4) else min(3, count)
+    return -(-count // columns), columns
+
+
+class Comparison:
+    """What undex compare wrote: runs in their order, the curves of each quantity, and the table's rows."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        for name in ("comparison.csv", "curves.csv"):
+            if not (self.folder / name).is_file():
+                raise Missing(f"{self.folder / name}: missing; give the folder that undex compare RUN RUN... -o DIR wrote to")
+        with open(self.folder / "comparison.csv", newline="") as file:
+            header, *self.rows = list(csv.reader(file))
+        self.runs = header[3:header.index("reference", 3)]
+        samples = {}
+        with open(self.folder / "curves.csv", newline="") as file:
+            next(file)
+            for probe, kind, quantity, unit, run, time, value in csv.reader(file):
+                samples.setdefault((probe, kind, quantity, unit), {}).setdefault(run, []).append((float(time), float(value)))
+        # In the order in which they stand, what is neither a run nor the reference history is a source of a table.
+        self.sources = list(dict.fromkeys(run for runs in samples.values() for run in runs
+                                          if run not in self.runs and run != REFERENCE_LABEL))
+        self.curves = {key: {run: np.array(points).T for run, points in runs.items()} for key, runs in samples.items()}
+
+    def select(self, wanted):
+        """Curves of the quantities for which wanted(kind, quantity) holds, in the order of the file."""
+        return {key: runs for key, runs in self.curves.items() if wanted(key[1], key[2])}
+
+    def style(self, run):
+        if run == REFERENCE_LABEL:
+            return dict(color="0.35", ls="-", lw=0.9, zorder=1)
+        if run in self.sources:
+            marker = SOURCE_MARKERS[self.sources.index(run) % len(SOURCE_MARKERS)]
+            return dict(color="0.25", ls="", marker=marker, mfc="none", ms=5, zorder=3)
+        i = self.runs.index(run)
+        return dict(color=RUN_COLORS[i % len(RUN_COLORS)], ls=RUN_LINES[i % len(RUN_LINES)], lw=1.6, zorder=2)
+
+
+def in_shown_unit(unit, largest):
+    """Unit and factor that suit a picture."""
+    scales = {"Pa": ("MPa", 1e-6), "Pa s": ("kPa s", 1e-3), "m": ("mm", 1e3), "s": ("µs", 1e6)}
+    if unit == "J" and largest >= 1e3:
+        return "kJ", 1e-3
+    return scales.get(unit, ("" if unit == "-" else unit, 1))
+
+
+def legend_above(figure, handles, labels):
+    """One legend for all panels, above them: it can cover no curve."""
+    columns = max(1, min(len(labels), int(9 * figure.get_figwidth() / max(map(len, labels), default=1) / 1.2)))
+    rows = -(-len(labels) // columns)
+    height = figure.get_figheight()
+    figure.legend(handles, labels, loc="upper center", ncol=columns, frameon=False, fontsize=9, handlelength=3.5)
+    figure.tight_layout(rect=(0, 0, 1, 1 - (0.1 + 0.22 * rows) / height))
+
+
+def plot_curves(comparison, wanted):
+    """A panel per quantity, a curve per run, the reference in grey."""
+    selected = comparison.select(wanted)
+    if not selected:
+        return None
+    rows, columns = panels(len(selected))
+    figure, axes = plt.subplots(rows, columns, figsize=(max(4.6 * columns, 6.5), 3.2 * rows + 0.5), squeeze=False)
+    for axis in axes.flat[len(selected):]:
+        axis.remove()
+    handles = {}
+    for axis, ((probe, _, quantity, unit), runs) in zip(axes.flat, selected.items()):
+        shown, factor = in_shown_unit(unit, max(np.abs(values).max() for _, values in runs.values()))
+        end = max(runs[run][0][-1] for run in comparison.runs if run in runs)
+        clock, scale = ("ms", 1e3) if end > 2e-3 else ("µs", 1e6)
+        for run in [*comparison.runs, REFERENCE_LABEL, *comparison.sources]:
+            if run in runs:
+                time, values = runs[run]
+                handles[run], = axis.plot(scale * time, factor * values, **comparison.style(run))
+        axis.set(xlabel=f"time [{clock}]", ylabel=f"{quantity}" + (f" [{shown}]" if shown else ""), xlim=(0, scale * end))
+        axis.set_title(probe, fontsize=10)
+        axis.grid(alpha=0.3)
+    legend_above(figure, list(handles.values()), list(handles))
+    return figure
+
+
+def plot_cost(comparison):
+    """Bars: what each run cost, a panel per measure."""
+    rows = [row for row in comparison.rows if row[0] == "cost" and row[1] != "threads" and any(row[3:3 + len(comparison.runs)])]
+    if not rows:
+        return None
+    lines, columns = panels(len(rows))
+    n = len(comparison.runs)
+    figure, axes = plt.subplots(lines, columns, figsize=(4.6 * columns, (0.9 + 0.32 * n) * lines + 0.5), squeeze=False)
+    for axis in axes.flat[len(rows):]:
+        axis.remove()
+    bars = []
+    for axis, row in zip(axes.flat, rows):
+        values = [float(cell) if cell else 0.0 for cell in row[3:3 + n]]
+        bars = axis.barh(range(n), values, color=[comparison.style(run)["color"] for run in comparison.runs], height=0.7)
+        axis.bar_label(bars, [f"{value:,.4g}" if value < 1e4 else f"{value:,.0f}" if value else "-" for value in values],
+                       padding=3, fontsize=8)
+        axis.set(yticks=[], xlim=(0, 1.25 * max(values)), title="")
+        axis.set_title(row[1] + (f" [{row[2]}]" if row[2] else ""), fontsize=10)
+        axis.invert_yaxis()
+        axis.locator_params(axis="x", nbins=5)
+        axis.spines[["top", "right"]].set_visible(False)
+    legend_above(figure, list(bars), comparison.runs)
+    return figure
+
+
+def draw_comparison(folder, dpi):
+    comparison = Comparison(folder)
+    pictures = comparison.folder / "pictures"
+    pictures.mkdir(exist_ok=True)
+
+    def motion(kind, quantity):
+        return kind == "structure" and ("displacement" in quantity or "velocity" in quantity or quantity == "plastic strain")
+
+    def pressure(kind, quantity):
+        return kind in ("wall", "fluid") and quantity in ("pressure", "pressure, 1 us mean", "impulse")
+
+    def other(kind, quantity):
+        return kind != "energy" and not motion(kind, quantity) and not pressure(kind, quantity) and "mean" not in quantity
+
+    jobs = {"motion": lambda: plot_curves(comparison, motion), "pressure": lambda: plot_curves(comparison, pressure),
+            "energy": lambda: plot_curves(comparison, lambda kind, quantity: kind == "energy"),
+            "other": lambda: plot_curves(comparison, other), "cost": lambda: plot_cost(comparison)}
+    for name, draw in jobs.items():
+        figure = draw()
+        (pictures / f"{name}.png").unlink(missing_ok=True)  # an older comparison's must not pass for this one's
+        if figure is None:
+            continue
+        figure.savefig(pictures / f"{name}.png", dpi=dpi)
+        plt.close(figure)
+        print(pictures / f"{name}.png")
+    return 0
+
+
 # ------------------------------------------------------------------------------------------- main
 
 def main():
-    parser = argparse.ArgumentParser(description="Pictures of an undex run, into DIR/pictures.")
-    parser.add_argument("folder", metavar="DIR", help="the run's output folder")
+    parser = argparse.ArgumentParser(description="Pictures of an undex run, or of a comparison of runs, into DIR/pictures.")
+    parser.add_argument("folder", metavar="DIR", help="the run's output folder; with --compare the one of undex compare")
+    parser.add_argument("--compare", action="store_true", help="DIR was written by undex compare: its runs beside each other")
     parser.add_argument("--reference", type=Path, help="folder of the reference CSV files (default: those of the scene's case)")
     parser.add_argument("--times", help="times of the section's pictures [us], such as 15,30,45 (default: the paper's for "
                                         "its own scenes, else evenly spread)")
     parser.add_argument("--dpi", type=int, default=110)
     options = parser.parse_args()
+    if options.compare:
+        try:
+            return draw_comparison(options.folder, options.dpi)
+        except (Missing, ValueError) as error:
+            print(f"plot.py: {error}", file=sys.stderr)
+            return 2
     try:
         run = Run(options.folder)
         wanted = PAPER_TIMES if run.kind else []

@@ -132,9 +132,9 @@ TEST(RunComparison, RoundTimes) {
 TEST(RunComparison, TextWithReferenceAndUnitsPerRow) {
   ComparedBlock block{"cost", {compared("wall time", "s", {2, 3}), compared("steps", "", {1200, 2400}, 0, 1000)}};
   EXPECT_EQ(format_blocks({block}, {"coarse", "fine"}),
-            "\ncost              coarse            fine                     reference\n"
-            "  wall time [s]   2.000            3.000 +50.0%                      -\n"
-            "  steps            1200 (+20.0%)    2400 +100.0% (+140.0%)        1000\n");
+            "\ncost              coarse            fine                 reference\n"
+            "  wall time [s]   2.000            3.000 +50.0%                  -\n"
+            "  steps            1200 (+20.0%)    2400 +100% (+140%)        1000\n");
 }
 
 TEST(RunComparison, RunsThatDoNotFitFollowBelow) {
