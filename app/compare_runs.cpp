@@ -232,21 +232,25 @@ std::vector<Compared> derived(const Compared& pressure) {
 
 /// Gives each column of the reference to the first quantity of its name. Columns are named as in a history, whatever
 /// follows ("pressure at 0.25 mm"); of several for one quantity the first counts.
-void attach_reference(std::vector<Compared>& all, const std::vector<HistoryColumn>& reference, const std::string& path) {
-  bool found = reference.empty();
+void attach_reference(std::vector<Compared>& all, const std::vector<HistoryColumn>& reference, const std::string& path,
+                      std::vector<std::string>& notes) {
   std::string known;
-  std::set<std::string> done;
+  std::set<std::string> done, used;
   for (Compared& each : all) {
     if (each.kind == "energy" || each.quantity.count() == 0 || !done.insert(each.column).second) continue;
     known += (known.empty() ? "" : ", ") + each.column + " [" + each.quantity.unit + "]";
     const auto match = std::find_if(reference.begin(), reference.end(), [&](const HistoryColumn& column) {
-      return column.name.starts_with(each.column) && column.unit == each.quantity.unit;
+      return (column.name == each.column || column.name.starts_with(each.column + " ")) && column.unit == each.quantity.unit;
     });
     if (match == reference.end()) continue;
     each.quantity.reference = match->series;
-    found = true;
+    used.insert(match->name);
   }
-  if (!found)
+  std::string unused;
+  for (const HistoryColumn& column : reference)
+    if (!used.contains(column.name)) unused += (unused.empty() ? "" : ", ") + column.name + " [" + column.unit + "]";
+  if (!unused.empty()) notes.push_back("of the reference not used: " + unused);
+  if (used.empty() && !reference.empty())
     throw UsageError(path + ": no column is a quantity that the runs recorded; name one of them as the runs do: " +
                      (known.empty() ? "(the runs have no histories)" : known));
 }
@@ -544,7 +548,7 @@ int compare_runs(const CompareArguments& arguments) {
 
   std::vector<Compared> all = gather(runs, notes);
   require_common(runs, all);
-  attach_reference(all, reference.history, arguments.reference);
+  attach_reference(all, reference.history, arguments.reference, notes);
 
   double first_end = std::numeric_limits<double>::infinity(), last_end = 0;
   for (const Run& run : runs) {

@@ -16,6 +16,7 @@ std::string print(const char* format, double value) {
 std::string number(double value, const std::string& unit) {
   if (std::isnan(value)) return "-";
   if (unit == "us") return print("%.2f", value);
+  if (value == 0) return "0";
   const double size = std::abs(value);
   if (unit.empty() && size < 1e9 && value == std::floor(value)) return print("%.0f", value);  // a count
   if (size >= 1e5 || (size > 0 && size < 1e-3)) return print("%.3e", value);

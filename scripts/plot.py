@@ -519,7 +519,7 @@ def plot_curves(comparison, wanted):
             if run in runs:
                 time, values = runs[run]
                 handles[run], = axis.plot(scale * time, factor * values, **comparison.style(run))
-        axis.set(xlabel=f"time [{clock}]", ylabel=f"{quantity}" + (f" [{shown}]" if shown else ""), xlim=(0, scale * end))
+        axis.set(xlabel=f"time [{clock}]", ylabel=f"{quantity}" + (f" [{shown}]" if shown else ""), xlim=(0, 1.02 * scale * end))
         axis.set_title(probe, fontsize=10)
         axis.grid(alpha=0.3)
     legend_above(figure, list(handles.values()), list(handles))

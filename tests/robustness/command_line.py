@@ -6,6 +6,7 @@
 
 Exit codes: 0 done, 1 internal or I/O, 2 usage or scene, 3 stopped by the numerics, 130 and 143 interrupted and terminated.
 """
+import csv
 import json
 import os
 import pathlib
@@ -370,6 +371,140 @@ class Numerics(Case):
         self.ends(finished, 3, r"fixed_step")
 
 
+class Compare(Case):
+    """undex compare, on runs of a tenth of a second."""
+
+    TUBE = {"structure.cells.around": 16, "structure.cells.along": 8, "end_time": 10e-6, "output.field_interval": 0}
+
+    def tube(self, output, **changes):
+        settings = {**self.TUBE, **{key.replace("__", "."): value for key, value in changes.items()}}
+        self.ends(self.undex("run", CASES / "tube_pulse", "-o", output, "-q", *runs.overrides(settings)), 0)
+
+    def table(self, folder="out/compare"):
+        """Rows of comparison.csv by (quantity, at): {column: text}."""
+        with open(self.here / folder / "comparison.csv", newline="") as file:
+            return {(row["quantity"], row["at"]): row for row in csv.DictReader(file)}
+
+    def test_meshes(self):
+        self.tube("coarse")
+        self.tube("fine", structure__cells__along=12)
+        before = contents(self.here)
+        finished = self.undex("compare", "coarse", "fine", "--at", "10,4")
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"(?m)^2x16x8 cells +coarse +tube_pulse, done at 10 us$")
+        self.assertRegex(finished.stdout, r"(?m)^midline_outer: radial displacement \[mm\] +2x16x8 cells +2x16x12 cells$")
+        self.assertEqual({name: data for name, data in contents(self.here).items() if not name.startswith("out")}, before)
+
+        rows = self.table()
+        self.assertEqual(rows["setting", "structure.cells"]["2x16x12 cells"], "2x16x12")
+        histories = [runs.histories(folder)["history/midline_outer.csv"] for folder in (self.here / "coarse", self.here / "fine")]
+        values = [table.column("displacement_x")[-1] for table in histories]  # the probe lies on the x axis
+        row = rows["midline_outer: radial displacement", "10 us"]
+        self.assertAlmostEqual(float(row["2x16x8 cells"]), 1e3 * values[0], delta=1e-6 * abs(values[0] * 1e3))
+        self.assertAlmostEqual(float(row["2x16x12 cells from 2x16x8 cells [%]"]), 100 * (values[1] / values[0] - 1), places=4)
+        self.assertEqual(list(at for name, at in rows if name == "midline_outer: radial velocity"), ["4 us", "10 us", "largest to 10 us"])
+        summary = runs.summary(self.here / "fine")
+        self.assertEqual(float(rows["cost", "steps"]["2x16x12 cells"]), summary["steps"])
+        with open(self.here / "out/compare/curves.csv", newline="") as file:
+            curve = [row for row in csv.DictReader(file) if row["quantity"] == "radial velocity" and row["run"] == "2x16x8 cells"]
+        self.assertEqual([float(row["value"]) for row in curve], histories[0].column("velocity_x"))
+
+        # A comparison is not written over, unless asked for.
+        self.ends(self.undex("compare", "coarse", "fine"), 2, "not empty.*--force")
+        self.ends(self.undex("compare", "coarse", "fine", "--force", "--label", "a,b"), 0)
+        self.assertIn("b from a [%]", self.table()["cost", "steps"])
+
+    def test_reference_history(self):
+        self.tube("coarse")
+        self.tube("fine", structure__cells__along=12)
+        # Of a run's own history what has no direction is used: which way is outward is not said there.
+        finished = self.undex("compare", "fine", "coarse", "--reference", "coarse/history/midline_outer.csv", "--label", "f,c", "-o", "own")
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"(?m)^note: of the reference not used: displacement_x \[m\],")
+        self.assertEqual(self.table("own")["midline_outer: plastic strain", "10 us"]["c from reference [%]"], "0")
+        self.assertEqual(self.table("own")["midline_outer: radial velocity", "10 us"]["reference"], "")
+        rows = [line.split(",") for line in (self.here / "coarse/history/midline_outer.csv").read_text().splitlines()]
+        (self.here / "ref.csv").write_text("# made\ntime [s],displacement [m]\n" + "".join(f"{r[0]},{r[1]}\n" for r in rows[1:]))
+        finished = self.undex("compare", "fine", "coarse", "--reference", "ref.csv", "--label", "f,c")
+        self.ends(finished, 0)
+        rows = self.table()
+        row = rows["midline_outer: radial displacement", "10 us"]
+        self.assertLess(abs(float(row["c from reference [%]"])), 1e-6)
+        self.assertAlmostEqual(float(row["f from reference [%]"]), 100 * (float(row["f"]) / float(row["c"]) - 1), places=4)
+        norms = rows["difference over the common time, of the peak", "midline_outer: radial displacement from the reference, L2"]
+        self.assertLess(float(norms["c"]), 1e-6)
+        self.assertGreater(float(norms["f"]), 1e-3)
+
+    def test_fluids(self):
+        self.ends(self.quick("a"), 0)
+        self.ends(self.quick("b", changes={"resolution.spacing": 0.005}), 0)
+        finished = self.undex("compare", "a", "b", "-o", "ab")
+        self.ends(finished, 0)
+        self.assertIn("energy: kinetic [J]", finished.stdout)
+        self.assertNotIn("structure", finished.stdout)
+        self.assertIn("5 mm from 10 mm [%]", self.table("ab")["energy: kinetic", "20000 us"])
+        self.ends(self.undex("compare", "a", "b", "-o", "ab", "--force", "--reference", CASES / "al_tube_fem/reference/displacement.csv"),
+                  2, "none of its metrics is a result")
+
+    def test_every_mistake_at_once(self):
+        self.ends(self.quick("a"), 0)
+        shutil.copytree(self.here / "a", self.here / "unfinished")
+        (self.here / "unfinished" / "summary.json").unlink()
+        (self.here / "empty").mkdir()
+        shutil.copytree(self.here / "a", self.here / "cut")
+        (self.here / "cut" / "energy.csv").write_text("time [s],kinetic [J]\n0,1\n1\n")
+        (self.here / "words.csv").write_text("hello\n")
+        before = contents(self.here)
+        self.ends(self.undex("compare", "a", "unfinished", "empty", "cut", "none", "a", "--at", "1,x", "--label", "p,q",
+                             "--reference", "words.csv"),
+                  2, r"unfinished: the run is not finished \(no summary.json\); wait", "empty: not the folder of a run",
+                  r"cut/energy.csv:3", "none: no such folder; give", "a is given twice", "--at 1,x: 'x' is no time",
+                  "--label p,q: give one name for each of the 6 runs", "words.csv: neither a table of metrics")
+        self.ends(self.undex("compare", "a"), 2, "At least 2 required")
+        self.ends(self.undex("compare", "a", "cut", "--reference", "none.csv"), 2, "none.csv: cannot be read", "energy.csv:3")
+        self.assertEqual(contents(self.here), before)
+
+    def test_nothing_in_common(self):
+        self.tube("tube")
+        self.ends(self.quick("gas"), 0)
+        self.ends(self.undex("compare", "tube", "gas"), 2, "gas is 1D, tube is 3D.*compare runs of one dimension")
+        # The same gas, said to be in 3D: its energies are the fluid's, the tube's are the structure's.
+        resolved = self.here / "gas" / "resolved.toml"
+        resolved.write_text(resolved.read_text().replace("dimension = 1", "dimension = 3"))
+        self.ends(self.undex("compare", "tube", "gas"), 2, "no quantity in common.*give them probes of one name")
+        self.assertFalse((self.here / "out").exists())
+
+    def test_stopped_run(self):
+        self.tube("whole")
+        shutil.copytree(self.here / "whole", self.here / "short")
+        record = runs.summary(self.here / "short")
+        record.update(status="stopped", message="a cell inside out", time_s=6e-6)
+        (self.here / "short" / "summary.json").write_text(json.dumps(record))
+        for name in ("energy.csv", "history/midline_outer.csv"):
+            lines = (self.here / "short" / name).read_text().splitlines(keepends=True)
+            (self.here / "short" / name).write_text("".join(line for line in lines if line[0] == "t" or float(line.split(",")[0]) <= 6e-6))
+        finished = self.undex("compare", "whole", "short", "--at", "5,9")
+        self.ends(finished, 0)
+        self.assertIn("note: short was stopped: a cell inside out", finished.stdout)
+        rows = self.table()
+        row = rows["midline_outer: plastic strain", "9 us"]
+        self.assertEqual((row["short"], row["short from whole [%]"]), ("", ""))
+        row = rows["midline_outer: plastic strain", "5 us"]
+        self.assertEqual(row["short"], row["whole"])
+        self.ends(self.undex("compare", "whole", "short", "--at", "20", "--force"), 2, "no run reaches these times.*10 us")
+
+    def test_pictures(self):
+        self.tube("coarse")
+        self.tube("fine", structure__cells__along=12)
+        self.ends(self.undex("compare", "coarse", "fine", "-o", "both"), 0)
+        plot = [sys.executable, CASES.parent / "scripts" / "plot.py", "--compare"]
+        if runs.call(sys.executable, "-c", "import numpy, matplotlib").returncode != 0:
+            self.skipTest("no Matplotlib")
+        self.ends(runs.call(*plot, self.here / "both"), 0)
+        self.assertEqual({path.stem for path in (self.here / "both/pictures").iterdir()}, {"motion", "energy", "other", "cost"})
+        self.ends(runs.call(*plot, self.here / "coarse"), 2, "comparison.csv: missing; give the folder that undex compare")
+
+
 class Telling(Case):
     """Commands that only say something."""
 
@@ -431,7 +566,7 @@ class Telling(Case):
         self.assertTrue(self.undex("version").stdout.startswith(f"undex {version['version']}"))
 
     def test_help(self):
-        for arguments in (["--help"], ["run", "--help"], ["check", "--help"]):
+        for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["compare", "--help"]):
             finished = self.undex(*arguments)
             self.ends(finished, 0)
             self.assertIn("Usage", finished.stdout)
