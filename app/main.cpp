@@ -48,7 +48,8 @@ int dispatch(int argc, char** argv) {
       "finished runs beside each other: histories at common times, energies, errors, cost, and how far each is from the first");
   comparison->add_option("runs", compare_arguments.runs, "output folders of two runs or more; the first is what the others are compared with")
       ->required()
-      ->expected(2, -1);
+      ->expected(2, -1)
+      ->type_name("RUN");
   comparison->add_option("--reference", compare_arguments.reference,
                          "CSV: a table of metrics (cases/*/reference), or a history with the header time [s],pressure [Pa],...");
   comparison->add_option("--at", compare_arguments.times,
@@ -57,6 +58,8 @@ int dispatch(int argc, char** argv) {
                          "names of the runs, such as FEM,SPH; default: the settings that tell them apart");
   comparison->add_option("-o,--output", compare_arguments.output, "output folder; default: out/compare");
   comparison->add_flag("--force", compare_arguments.force, "write into an output folder that is not empty");
+  comparison->footer("Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
+                     "how: docs/outputs.md");
 
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
