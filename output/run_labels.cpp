@@ -44,7 +44,7 @@ std::string spoken(const std::string& key, const std::string& value) {
   if (value == "false") return "no " + last;
   char* end = nullptr;
   const double amount = std::strtod(value.c_str(), &end);
-  if (*end != '\0') return value;
+  if (*end != '\0') return rank(key) < 8 ? value : last + " " + value;  // "gaussian", but "planes x y"
   return last == "spacing" ? print("%g mm", 1e3 * amount) : last + " " + print("%g", amount);
 }
 

@@ -30,6 +30,8 @@ TEST(RunLabels, NumbersAndSwitchesSayWhatTheyAre) {
   EXPECT_EQ(labels({{{"structure.cells", "2x64x48"}}, {{"structure.cells", "1x32x24"}}, {{"structure.cells", "1x8x8"}}}),
             (Labels{"2x64x48 cells", "1x32x24 cells", "1x8x8 cells"}));
   EXPECT_EQ(run_labels({{"coupling.slip", {"true", "false"}}}, {"a", "b"}), (Labels{"slip", "no slip"}));
+  EXPECT_EQ(run_labels({{"symmetry.planes", {"x y", "x y z"}}}, {"a", "b"}), (Labels{"planes x y", "planes x y z"}));
+  EXPECT_EQ(run_labels({{"scheme.kernel", {"gaussian", "wendland_c2"}}}, {"a", "b"}), (Labels{"gaussian", "wendland_c2"}));
 }
 
 TEST(RunLabels, WhatEveryRunHasComesFirst) {
