@@ -158,7 +158,8 @@ std::string common_name(const Run& run, const std::string& name, const Run& firs
   const std::string& primary = first.scene.compared_probe;
   if (name != run.scene.compared_probe || name == primary || run.scene.probes.contains(primary)) return name;
   const auto theirs = first.scene.probes.find(primary), mine = run.scene.probes.find(name);
-  const bool same = theirs != first.scene.probes.end() && mine != run.scene.probes.end() && theirs->second.kind == mine->second.kind;
+  const bool same =
+      theirs != first.scene.probes.end() && mine != run.scene.probes.end() && theirs->second.kind == mine->second.kind;
   return same ? primary : name;
 }
 
@@ -265,11 +266,19 @@ double time_of_metric(const std::string& metric, const std::string& quantity) {
   return end != metric.c_str() + quantity.size() && std::string(end).starts_with("us") ? 1e-6 * time : nan;
 }
 
+/// The quantities of which metrics are values at given times.
+constexpr std::array timed_metrics{"displacement_", "wall_velocity_", "plastic_strain_"};
+
+bool is_at_time(const std::string& metric) {
+  return std::any_of(timed_metrics.begin(), timed_metrics.end(),
+                     [&](const char* quantity) { return !std::isnan(time_of_metric(metric, quantity)); });
+}
+
 /// The times of a reference table's rows within 0..end.
 std::vector<double> reference_times(const output::ReferenceTable& table, double end) {
   std::set<double> times;
   for (const output::ReferenceTable::Row& row : table.rows)
-    for (const char* quantity : {"displacement_", "wall_velocity_", "plastic_strain_"})
+    for (const char* quantity : timed_metrics)
       if (const double time = time_of_metric(row.metric, quantity); time > 0 && time <= end * (1 + 1e-9)) times.insert(time);
   return {times.begin(), times.end()};
 }
@@ -316,9 +325,7 @@ ComparedBlock result_block(const std::vector<Run>& runs) {
   std::vector<std::string> names;
   for (const Run& run : runs)
     for (const auto& [name, ignored] : run.folder.record.metrics) {
-      const bool at_time = !std::isnan(time_of_metric(name, "displacement_")) || !std::isnan(time_of_metric(name, "wall_velocity_")) ||
-                           !std::isnan(time_of_metric(name, "plastic_strain_"));
-      if (!at_time && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (!is_at_time(name) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   for (const std::string& name : names) {
     const End& end = *std::find_if(ends.begin(), ends.end(), [&](const End& each) { return name.ends_with(each.name); });
@@ -558,7 +565,8 @@ int compare_runs(const CompareArguments& arguments) {
     if (record.status != "done") notes.push_back(run.folder.path.string() + " was " + record.status + ": " + record.message);
   }
   if (!times.empty() && times.front() > last_end * (1 + 1e-9))
-    throw UsageError("--at " + arguments.times + output::print(": no run reaches these times; the longest ends at %.6g us", 1e6 * last_end));
+    throw UsageError("--at " + arguments.times +
+                     output::print(": no run reaches these times; the longest ends at %.6g us", 1e6 * last_end));
   if (times.empty() && reference.table) times = reference_times(*reference.table, first_end);
   if (times.empty()) times = output::round_times(0, first_end);
 

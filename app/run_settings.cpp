@@ -104,9 +104,9 @@ ResolvedScene read_resolved(const std::string& text, const std::string& file) {
     }
   if (const Node* comparison = root.find("comparison")) result.compared_probe = text_at(*comparison, "probe");
   if (const Node* structure = root.find("structure"))
-    if (const Node* shape = structure->find("shape"); shape && (text_at(*shape, "type") == "tube" || text_at(*shape, "type") == "rod")) {
-      const std::string axis = text_at(*shape, "axis");
-      result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+    if (const Node* shape = structure->find("shape")) {
+      const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
+      if (type == "tube" || type == "rod") result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
     }
   return result;
 }
