@@ -11,18 +11,26 @@
 
 namespace undex::scene {
 
+class TableReader;
+
 struct Draft {
   Scene scene;
   Node root;                          ///< the document, overrides applied
   Report report;
   bool dimension_good = true, spacing_good = false;
-  std::vector<const Node*> body_nodes, wall_nodes, probe_nodes;  ///< into root, beside the scene's own vectors
-  std::vector<bool> body_shape_good, wall_shape_good, probe_good;
+  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes, probe_nodes;  ///< into root, beside the scene's own vectors
+  std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, probe_good;
+  struct NamedSubtraction {
+    const Node* name;                 ///< as written
+    std::size_t from;                 ///< of which body; solids count on after the bodies
+  };
+  std::vector<NamedSubtraction> named_subtractions;
   const Node* structure_node = nullptr;
   bool structure_shape_good = false;
 };
 
 void read_fluid(Draft& draft);        // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+void read_solids(Draft& draft);       // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
 void read_structure(Draft& draft);    // read_structure.cpp: [structure], [coupling]
 void read_output(Draft& draft);       // read_output.cpp: [[probes]], [output], [comparison]
 void validate(Draft& draft);          // validate.cpp: what single keys cannot tell
@@ -36,6 +44,11 @@ bool read_fluid_material(const Node& node, const std::string& path, Draft& draft
 bool read_solid_material(const Node& node, const std::string& path, Draft& draft, materials::Solid& into);
 /// All of [materials], used or not.
 void read_own_materials(Draft& draft);
+
+/// subtract = [shape, or name of a body or solid, ...]: shapes go to `into`, names to the draft until all bodies are known.
+void read_subtractions(const TableReader& table, Draft& draft, std::size_t from, std::vector<Primitive>& into);
+/// Puts the shapes of named bodies and solids where `subtract` names them.
+void resolve_subtractions(Draft& draft);
 
 /// A shape table; `allowed` are its possible types. Returns whether it was good.
 bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed,

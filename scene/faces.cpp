@@ -1,7 +1,5 @@
 #include "scene/faces.hpp"
 
-#include <algorithm>
-
 namespace undex::scene {
 namespace {
 
@@ -24,21 +22,31 @@ std::vector<std::string> wall_faces(const Primitive& container, int dimension) {
   return box_faces(dimension);
 }
 
-std::vector<std::string> structure_faces(const fem::Mesh& mesh, const std::vector<int>& symmetry_axes) {
-  const auto is_cut = [&](int axis, double low) {
-    return low < 0 && std::find(symmetry_axes.begin(), symmetry_axes.end(), axis) != symmetry_axes.end();
-  };
+bool is_round(const Primitive& shape, int dimension) {
+  const auto* cylinder = std::get_if<Cylinder>(&shape);
+  const auto* tube = std::get_if<TubeShape>(&shape);
+  return (cylinder || tube) && (dimension == 3 || (dimension == 2 && (cylinder ? cylinder->axis : tube->axis) == 2));
+}
+
+std::vector<std::string> shape_faces(const Primitive& shape, int dimension, const std::array<bool, 3>& symmetric) {
+  if (std::holds_alternative<Sphere>(shape)) return {"side"};
+  const auto is_cut = [&](int axis, double low) { return low < 0 && symmetric[axis]; };
   std::vector<std::string> faces;
-  if (const auto* tube = std::get_if<fem::TubeMesh>(&mesh)) {
-    faces = {"inner", "outer", "high"};
-    if (!is_cut(tube->axis, tube->low)) faces.push_back("low");
-  } else if (const auto* rod = std::get_if<fem::RodMesh>(&mesh)) {
-    faces = {"side", "high"};
-    if (!is_cut(rod->axis, rod->low)) faces.push_back("low");
-  } else if (const auto* plate = std::get_if<fem::PlateMesh>(&mesh)) {
-    faces = box_faces(3);
-    for (int a = 0; a < 3; ++a)
-      if (is_cut(a, plate->low[a])) std::erase(faces, std::string(1, "xyz"[a]) + "_low");
+  const auto ends = [&](int axis, double low) {
+    if (axis >= dimension) return;
+    faces.push_back("high");
+    if (!is_cut(axis, low)) faces.push_back("low");
+  };
+  if (const auto* tube = std::get_if<TubeShape>(&shape)) {
+    faces = {"inner", "outer"};
+    ends(tube->axis, tube->low);
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    faces = {"side"};
+    ends(cylinder->axis, cylinder->low);
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    faces = box_faces(dimension);
+    for (int a = 0; a < dimension; ++a)
+      if (is_cut(a, box->low[a])) std::erase(faces, std::string(1, "xyz"[a]) + "_low");
   }
   return faces;
 }

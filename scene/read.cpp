@@ -88,6 +88,8 @@ Scene read(const std::filesystem::path& path, const std::vector<Override>& overr
   read_top(draft);
   read_own_materials(draft);
   read_fluid(draft);
+  read_solids(draft);
+  resolve_subtractions(draft);
   read_structure(draft);
   read_output(draft);
   validate(draft);

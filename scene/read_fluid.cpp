@@ -16,16 +16,23 @@ using sph::FaceCondition;
 const Choices<FaceCondition> conditions{
     {"no_slip", FaceCondition::no_slip}, {"free_slip", FaceCondition::free_slip}, {"open", FaceCondition::open}};
 
+/// Bodies need the scene's spacing, and solids without one of their own.
+bool needs_spacing(const Node& root) {
+  if (root.find("bodies")) return true;
+  const Node* solids = root.find("solids");
+  return solids && std::any_of(solids->items.begin(), solids->items.end(), [](const Node& solid) { return !solid.find("spacing"); });
+}
+
 void read_resolution(const TableReader& top, Draft& draft) {
   sph::Lattice& lattice = draft.scene.fluid.lattice;
   const Node* node = top.table("resolution");
   if (!node) {
-    if (draft.root.find("bodies") && !top.has("resolution"))
+    if (needs_spacing(draft.root) && !top.has("resolution"))
       draft.report.add(draft.root, "resolution.spacing is missing; add [resolution] with spacing = (particle distance in m)");
     return;
   }
   const TableReader table(*node, "resolution", "resolution", top.dimension(), draft.report);
-  if (draft.root.find("bodies")) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
+  if (needs_spacing(draft.root)) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
   draft.spacing_good = table.read("spacing", lattice.spacing);
   table.read_choice<sph::LatticeType>("lattice", lattice.type, {{"cartesian", sph::LatticeType::cartesian},
                                                                 {"rings", sph::LatticeType::rings}});
@@ -139,31 +146,7 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   body.burn = programmed;
 }
 
-/// subtract = [shape or name of a body or of the structure, ...]: names are resolved once all bodies are known.
-void read_subtractions(const TableReader& table, sph::Body& body,
-                       std::vector<std::pair<const Node*, std::size_t>>& names, std::size_t index) {
-  const Node* list = table.find("subtract");
-  if (!list) return;
-  const std::string path = table.path_of("subtract");
-  if (list->kind != Node::Kind::array) {
-    table.complain("subtract", path + " must be an array of shapes and names of bodies, not " + list->described());
-    return;
-  }
-  for (std::size_t i = 0; i < list->items.size(); ++i) {
-    const Node& item = list->items[i];
-    if (item.kind == Node::Kind::text) {
-      names.emplace_back(&item, index);
-      continue;
-    }
-    Primitive removed = Sphere{Vec3::Zero(), 0};
-    if (read_shape(item, path + '.' + std::to_string(i), table.dimension(), {"box", "slab", "sphere", "cylinder", "tube"},
-                   table.report(), removed))
-      body.shape.removed.push_back(removed);
-  }
-}
-
-sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good,
-                    std::vector<std::pair<const Node*, std::size_t>>& names, std::size_t index) {
+sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
   sph::Body body{std::to_string(index), {Sphere{Vec3::Zero(), 0}, {}}, {"", "", TaitWater({}), 1000.0}, {}, Vec3::Zero(),
@@ -173,7 +156,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))
     shape_good = read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(),
                             {"box", "slab", "sphere", "cylinder", "tube"}, report, body.shape.base);
-  read_subtractions(table, body, names, index);
+  read_subtractions(table, draft, index, body.shape.removed);
   bool material_good = table.need("material", "e.g. material = \"water-tait\" ('undex materials' lists them)");
   if (material_good) {
     std::string material_path = table.path_of("material");
@@ -204,43 +187,14 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   return body;
 }
 
-/// Puts the shapes of named bodies (or of the structure) where `subtract` names them.
-void resolve_names(Draft& draft, const std::vector<std::pair<const Node*, std::size_t>>& names) {
-  std::vector<sph::Body>& bodies = draft.scene.fluid.bodies;
-  for (const auto& [node, index] : names) {
-    const std::string path = "bodies." + bodies[index].name + ".subtract";
-    std::vector<std::string> known;
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (i != index) known.push_back(bodies[i].name);
-      if (bodies[i].name == node->text) other = i + 1;
-    }
-    if (other == index + 1) {
-      draft.report.add(*node, path + ": a body cannot be subtracted from itself");
-    } else if (other == 0) {
-      draft.report.add(*node, path + ": no body '" + node->text + "'" + suggestion(node->text, known));
-    } else {
-      const sph::Body& removed = bodies[other - 1];
-      const Node* subtract = draft.body_nodes[other - 1]->find("subtract");
-      if (subtract && subtract->kind == Node::Kind::array && !subtract->items.empty())
-        draft.report.add(*node, path + ": '" + node->text + "' itself has subtractions; subtract plain shapes instead");
-      else if (draft.body_shape_good[other - 1])
-        bodies[index].shape.removed.push_back(removed.shape.base);
-    }
-  }
-}
-
 void read_bodies(const TableReader& top, Draft& draft) {
-  std::vector<std::pair<const Node*, std::size_t>> names;
   const auto nodes = top.tables("bodies");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     bool shape_good = false;
-    draft.scene.fluid.bodies.push_back(
-        read_body(*nodes[i], element_path("bodies", *nodes[i], i), draft, shape_good, names, i));
+    draft.scene.fluid.bodies.push_back(read_body(*nodes[i], element_path("bodies", *nodes[i], i), draft, shape_good, i));
     draft.body_nodes.push_back(nodes[i]);
     draft.body_shape_good.push_back(shape_good);
   }
-  resolve_names(draft, names);
 }
 
 void read_wall(const Node& node, const std::string& path, Draft& draft) {

@@ -12,6 +12,8 @@ const std::vector<std::string> fluid_quantities{"pressure", "velocity", "density
 const std::vector<std::string> structure_quantities{"displacement", "velocity", "stress", "plastic_strain", "temperature"};
 const std::vector<std::string> known_particle_fields{"pressure", "density", "velocity", "void_fraction", "energy",
                                                      "smoothing_length", "material", "sound_speed", "mass"};
+const std::vector<std::string> known_solid_fields{"pressure", "velocity", "von_mises", "plastic_strain", "density", "temperature",
+                                                  "displacement", "energy", "damage", "material", "sound_speed", "mass"};
 
 /// Reports every word that is not known, and every repetition.
 void check_words(const TableReader& table, const char* key, const std::vector<std::string>& words,
@@ -62,6 +64,8 @@ void read_output_table(const TableReader& top, Draft& draft) {
   if (table.read("particle_fields", output.particle_fields))
     check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
   table.read("structure_fields", output.structure_fields);
+  if (table.read("solid_fields", output.solid_fields))
+    check_words(table, "solid_fields", output.solid_fields, known_solid_fields);
 }
 
 void read_start(const TableReader& top, Draft& draft) {

@@ -6,6 +6,7 @@
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
 #include "scene/numbers.hpp"
+#include "scene/structure_shape.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/table_reader.hpp"
 
@@ -135,6 +136,12 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
   return true;
 }
 
+/// None for a gmsh mesh, whose faces are the ids in its file.
+std::vector<std::string> mesh_faces(const fem::Mesh& mesh, const std::array<bool, 3>& symmetric) {
+  const std::optional<Primitive> shape = structure_shape(mesh);
+  return shape ? shape_faces(*shape, 3, symmetric) : std::vector<std::string>{};
+}
+
 /// Is the face one of the mesh's? Gmsh faces are only known to the file.
 void check_face(const TableReader& table, const char* key, const std::string& face, const std::vector<std::string>& known) {
   if (!known.empty() && std::find(known.begin(), known.end(), face) == known.end()) table.unknown_word(key, face, known);
@@ -185,8 +192,11 @@ void read_structure(Draft& draft) {
     const TableReader table(*node, "coupling", "coupling", 3, draft.report);
     table.read("slip", draft.scene.coupling.free_slip);
     table.read("window", draft.scene.coupling.window);
-    if (!top.has("structure"))
-      draft.report.add(*node, "[coupling] has nothing to couple: the scene has no [structure]; remove it or add one");
+    table.read_choice<coupling::SolidContact>("solids", draft.scene.coupling.solids,
+                                              {{"particles", coupling::SolidContact::particles},
+                                               {"surface", coupling::SolidContact::surface}});
+    if (!top.has("structure") && !top.has("solids"))
+      draft.report.add(*node, "[coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one");
   }
   const Node* node = top.table("structure");
   if (!node) return;
@@ -205,7 +215,7 @@ void read_structure(Draft& draft) {
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
   const std::vector<std::string> faces =
-      draft.structure_shape_good ? structure_faces(structure.mesh, structure.symmetry_axes) : std::vector<std::string>{};
+      draft.structure_shape_good ? mesh_faces(structure.mesh, draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
   if (table.read("wet", structure.wet_faces))

@@ -27,8 +27,8 @@ struct Start {
 struct Probe {
   enum class Kind {
     fluid,      ///< Shepard average of the fluid at a fixed point
-    wall,       ///< the same at a point of a rigid wall or of the (moving) wet face nearest to it
-    structure,  ///< a material point of the structure
+    wall,       ///< the same at a point of a rigid wall or of the (moving) wet face or solid nearest to it
+    structure,  ///< a material point of the structure or of a solid in particles
   };
   std::string name;
   Kind kind = Kind::fluid;
@@ -45,6 +45,9 @@ struct Output {
   std::vector<std::string> particle_fields{"pressure", "density", "velocity", "void_fraction"};
                                           ///< also: energy, smoothing_length, material, sound_speed, mass
   bool structure_fields = true;
+  std::vector<std::string> solid_fields{"pressure", "velocity", "von_mises", "plastic_strain"};
+                                          ///< also: density, temperature, displacement, energy, damage, material,
+                                          ///< sound_speed, mass
 };
 
 /// A reference history or table that a run is compared with by the named comparison.
@@ -58,7 +61,7 @@ struct Scene {
   std::string name, title;
   std::filesystem::path file;             ///< where it was read from
   double end_time = 0;                    ///< [s]
-  sph::Settings fluid;                    ///< without bodies where there is no fluid
+  sph::Settings fluid;                    ///< everything in particles; without bodies where there is no fluid
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;

@@ -42,20 +42,26 @@ std::optional<Primitive> structure_shape(const fem::Mesh& mesh) {
   return std::nullopt;
 }
 
-std::vector<Vec3> face_points(const fem::Mesh& mesh, const std::string& face) {
-  if (const auto* t = std::get_if<fem::TubeMesh>(&mesh)) {
-    if (face == "inner") return round_points(t->axis, t->center, {t->inner_radius}, between(t->low, t->high));
-    if (face == "outer") return round_points(t->axis, t->center, {t->outer_radius}, between(t->low, t->high));
-    if (face == "low") return round_points(t->axis, t->center, between(t->inner_radius, t->outer_radius), {t->low});
-    if (face == "high") return round_points(t->axis, t->center, between(t->inner_radius, t->outer_radius), {t->high});
+std::vector<Vec3> face_points(const Primitive& shape, const std::string& face) {
+  if (const auto* t = std::get_if<TubeShape>(&shape)) {
+    if (face == "inner") return round_points(t->axis, t->center, {t->inner}, between(t->low, t->high));
+    if (face == "outer") return round_points(t->axis, t->center, {t->outer}, between(t->low, t->high));
+    if (face == "low") return round_points(t->axis, t->center, between(t->inner, t->outer), {t->low});
+    if (face == "high") return round_points(t->axis, t->center, between(t->inner, t->outer), {t->high});
   }
-  if (const auto* r = std::get_if<fem::RodMesh>(&mesh)) {
-    if (face == "side") return round_points(r->axis, r->center, {r->radius}, between(r->low, r->high));
-    if (face == "low") return round_points(r->axis, r->center, between(0, r->radius), {r->low});
-    if (face == "high") return round_points(r->axis, r->center, between(0, r->radius), {r->high});
+  if (const auto* c = std::get_if<Cylinder>(&shape)) {
+    if (face == "side") return round_points(c->axis, c->center, {c->radius}, between(c->low, c->high));
+    if (face == "low") return round_points(c->axis, c->center, between(0, c->radius), {c->low});
+    if (face == "high") return round_points(c->axis, c->center, between(0, c->radius), {c->high});
   }
   std::vector<Vec3> points;
-  if (const auto* p = std::get_if<fem::PlateMesh>(&mesh))
+  if (const auto* s = std::get_if<Sphere>(&shape); s && face == "side")
+    for (const double height : between(-1, 1)) {
+      const double radius = s->radius * std::sqrt(1 - height * height);
+      const std::vector<Vec3> circle = round_points(2, s->center, {radius}, {s->center[2] + s->radius * height});
+      points.insert(points.end(), circle.begin(), circle.end());
+    }
+  if (const auto* p = std::get_if<Box>(&shape))
     for (int axis = 0; axis < 3; ++axis)
       for (const bool high : {false, true}) {
         if (face != std::string(1, "xyz"[axis]) + (high ? "_high" : "_low")) continue;

@@ -14,9 +14,9 @@ bool is_number(const Node& node) { return node.kind == Node::Kind::integer || no
 
 /// Where a key that is misplaced would belong: "[scheme]".
 std::string home_of(const std::string& key) {
-  for (const char* name : {"resolution", "symmetry", "scheme", "coupling", "output", "comparison", "structure"})
+  for (const char* name : {"resolution", "symmetry", "scheme", "coupling", "output", "comparison", "structure", "solid_scheme"})
     if (section(name).find(key)) return std::string("[") + name + "]";
-  for (const char* name : {"bodies", "walls", "probes"})
+  for (const char* name : {"bodies", "solids", "walls", "planes", "probes"})
     if (section(name).find(key)) return std::string("[[") + name + "]]";
   return section("").find(key) ? "the top of the file, before the first [table]" : "";
 }

@@ -283,6 +283,45 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
   }
 }
 
+void put_solid(Writer& writer, const sph::SolidBody& solid) {
+  writer.table("[[solids]]", "solids");
+  writer.put("name", solid.name);
+  if (!solid.shape.removed.empty())
+    writer.line("subtract", array(solid.shape.removed, [&](const Primitive& shape) {
+                  return inline_table(shape_pairs(shape, writer));
+                }));
+  writer.put("description", solid.description == sph::Description::total_lagrangian ? "total_lagrangian" : "updated_lagrangian");
+  writer.put("spacing", solid.spacing);
+  writer.put("lattice", solid.lattice == sph::LatticeType::rings ? "rings" : "cartesian");
+  writer.put("velocity", solid.velocity);
+  if (writer.dimension() == 3) writer.put("spin", solid.spin);
+  else writer.put("spin", solid.spin[2]);
+  writer.put("residual_stress", solid.residual_stress);
+  writer.put("wet", solid.wet);
+  put_shape(writer, "[solids.shape]", solid.shape.base);
+  put_solid_material(writer, "solids.material", solid.material);
+}
+
+void put_solids(Writer& writer, const sph::Settings& fluid) {
+  writer.table("[solid_scheme]", "solid_scheme");
+  const sph::SolidNumerics& numerics = fluid.solid_numerics;
+  writer.put("eta", numerics.eta);
+  writer.put("courant", numerics.courant);
+  writer.put("linear_viscosity", numerics.linear_viscosity);
+  writer.put("quadratic_viscosity", numerics.quadratic_viscosity);
+  writer.put("hourglass", numerics.hourglass);
+  writer.put("alpha", numerics.alpha);
+  writer.put("beta", numerics.beta);
+  writer.put("artificial_stress", numerics.artificial_stress);
+  for (const sph::SolidBody& solid : fluid.solids) put_solid(writer, solid);
+  for (const sph::RigidPlane& plane : fluid.planes) {
+    writer.table("[[planes]]", "planes");
+    writer.axis("axis", plane.axis);
+    writer.put("position", plane.position);
+    writer.put("free_side", plane.body_above ? "above" : "below");
+  }
+}
+
 void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.table("[resolution]", "resolution");
   if (fluid.lattice.spacing > 0) writer.put("spacing", fluid.lattice.spacing);
@@ -334,9 +373,13 @@ std::string to_toml(const Scene& scene) {
     writer.set_dimension(3);
     put_structure(writer, *scene.structure);
     writer.set_dimension(dimension);
+  }
+  if (!scene.fluid.solids.empty()) put_solids(writer, scene.fluid);
+  if (scene.structure || !scene.fluid.solids.empty()) {
     writer.table("[coupling]", "coupling");
     writer.put("slip", scene.coupling.free_slip);
     writer.put("window", scene.coupling.window);
+    writer.put("solids", scene.coupling.solids == coupling::SolidContact::surface ? "surface" : "particles");
   }
   if (!scene.fluid.bodies.empty()) {
     writer.table("[start]", "start");
@@ -357,6 +400,7 @@ std::string to_toml(const Scene& scene) {
   writer.put("field_times", scene.output.field_times);
   writer.put("particle_fields", scene.output.particle_fields);
   writer.put("structure_fields", scene.output.structure_fields);
+  writer.put("solid_fields", scene.output.solid_fields);
   writer.table("[comparison]", "comparison");
   writer.put("kind", scene.comparison.kind);
   writer.put("probe", scene.comparison.probe);

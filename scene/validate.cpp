@@ -38,10 +38,13 @@ class Validator {
     parts();
     lattice();
     if (!draft_.dimension_good) return;
-    for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) usable_.push_back(body(i));
+    collect();
+    for (const Part& each : parts_) usable_.push_back(part(each));
     overlaps();
     walls();
     structure();
+    solids();
+    planes();
     for (std::size_t i = 0; i < scene_.probes.size(); ++i)
       if (draft_.probe_good[i]) probe(scene_.probes[i], *draft_.probe_nodes[i]);
   }
@@ -50,10 +53,35 @@ class Validator {
   void complain(const Node& node, const char* key, const std::string& message) {
     draft_.report.add(value_or_self(node, key), message);
   }
-  double spacing_of(const sph::Body& body) const { return body.spacing.value_or(fluid_.lattice.spacing); }
+
+  /// A body of fluid or a solid in particles: geometry treats them alike. The bodies come first.
+  struct Part {
+    std::string list, name;
+    const Shape* shape;
+    std::optional<double> spacing;
+    const Node* node;
+    bool shape_good;
+
+    std::string path() const { return list + '.' + name; }
+  };
+  void collect() {
+    for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) {
+      const sph::Body& body = fluid_.bodies[i];
+      parts_.push_back({"bodies", body.name, &body.shape, body.spacing, draft_.body_nodes[i], draft_.body_shape_good[i]});
+    }
+    for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
+      const sph::SolidBody& solid = fluid_.solids[i];
+      parts_.push_back({"solids", solid.name, &solid.shape, solid.spacing, draft_.solid_nodes[i], draft_.solid_shape_good[i]});
+    }
+  }
+  bool all_usable() const { return std::find(usable_.begin(), usable_.end(), false) == usable_.end(); }
   /// Overlaps and gaps below this count as none.
   double tolerance() const { return draft_.spacing_good ? 0.01 * fluid_.lattice.spacing : 1e-6; }
   double near() const { return 2 * fluid_.lattice.spacing; }
+  bool touches_water(const Vec3& x) const {
+    return std::any_of(fluid_.bodies.begin(), fluid_.bodies.end(),
+                       [&](const sph::Body& body) { return signed_distance(body.shape, x, dimension_) <= near(); });
+  }
 
   template <class Things>
   void unique(const char* list, const Things& things, const std::vector<const Node*>& nodes) {
@@ -65,13 +93,26 @@ class Validator {
 
   void names() {
     unique("bodies", fluid_.bodies, draft_.body_nodes);
+    unique("solids", fluid_.solids, draft_.solid_nodes);
+    for (std::size_t i = 0; i < fluid_.solids.size(); ++i)
+      for (const sph::Body& body : fluid_.bodies)
+        if (body.name == fluid_.solids[i].name)
+          complain(*draft_.solid_nodes[i], "name", "solids: the name '" + body.name + "' is that of a body; choose another one");
     unique("walls", fluid_.walls, draft_.wall_nodes);
     unique("probes", scene_.probes, draft_.probe_nodes);
   }
 
   void parts() {
-    if (draft_.body_nodes.empty() && !draft_.structure_node)
-      draft_.report.add(draft_.root, "the scene has neither [[bodies]] nor a [structure]: there is nothing to compute; add one");
+    const bool solids = !draft_.solid_nodes.empty();
+    if (draft_.body_nodes.empty() && !draft_.structure_node && !solids)
+      draft_.report.add(draft_.root, "the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one");
+    if (solids && draft_.structure_node)
+      draft_.report.add(*draft_.structure_node, "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
+                                                "either finite elements or particles; remove one of the two");
+    if (solids && draft_.dimension_good && dimension_ == 1)
+      draft_.report.add(*draft_.solid_nodes[0], "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
+    if (!solids && !draft_.plane_nodes.empty())
+      draft_.report.add(*draft_.plane_nodes[0], "[[planes]] stop solids only, and the scene has no [[solids]]; for fluid take [[walls]]");
     if (draft_.body_nodes.empty() && !draft_.wall_nodes.empty())
       draft_.report.add(*draft_.wall_nodes[0], "walls without [[bodies]]: add the fluid that they hold, or remove them");
   }
@@ -111,13 +152,13 @@ class Validator {
     }
   }
 
-  /// Checks of one body by itself; returns whether its geometry can be compared with others'.
-  bool body(std::size_t i) {
-    if (!draft_.body_shape_good[i]) return false;
-    const sph::Body& body = fluid_.bodies[i];
-    const Node& node = *draft_.body_nodes[i];
-    const std::string path = "bodies." + body.name;
-    const Bounds extent = bounds(body.shape, dimension_);
+  /// Checks of one body or solid by itself; returns whether its geometry can be compared with others'.
+  bool part(const Part& one) {
+    if (!one.shape_good) return false;
+    const Shape& shape = *one.shape;
+    const Node& node = *one.node;
+    const std::string path = one.path();
+    const Bounds extent = bounds(shape, dimension_);
     for (int a = 0; a < dimension_; ++a) {
       if (!(extent.high[a] - extent.low[a] < 1e200)) {
         complain(node, "shape", path + " has no end along " + "xyz"[a] + "; take a box instead of a slab");
@@ -129,23 +170,24 @@ class Validator {
         return false;
       }
     }
-    if (draft_.spacing_good || body.spacing) {
-      const double thinnest = thickness(body.shape.base, dimension_);
-      if (thinnest < spacing_of(body))
-        complain(node, body.spacing ? "spacing" : "shape",
-                 path + " is " + rounded(thinnest) + " m at its thinnest, less than the spacing " + rounded(spacing_of(body)) +
+    if (draft_.spacing_good || one.spacing) {
+      const double spacing = one.spacing.value_or(fluid_.lattice.spacing);
+      const double thinnest = thickness(shape.base, dimension_);
+      if (thinnest < spacing)
+        complain(node, one.spacing ? "spacing" : "shape",
+                 path + " is " + rounded(thinnest) + " m at its thinnest, less than the spacing " + rounded(spacing) +
                      " m; make the spacing smaller or the body larger");
     }
     const Bounds window = common(kept_, extent);
-    const Shape base{body.shape.base, {}};
-    for (std::size_t k = 0; k < body.shape.removed.size(); ++k) {
-      const Shape removed{body.shape.removed[k], {}};
+    const Shape base{shape.base, {}};
+    for (std::size_t k = 0; k < shape.removed.size(); ++k) {
+      const Shape removed{shape.removed[k], {}};
       if (!find_in_both(inside(base, dimension_), inside(removed, dimension_), window, 0, dimension_))
         complain(node, "subtract", path + ".subtract: the shape number " + std::to_string(k) +
                                        " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
     }
-    const Depth within = inside(body.shape, dimension_);
-    if (!body.shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
+    const Depth within = inside(shape, dimension_);
+    if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
       complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller");
       return false;
     }
@@ -153,25 +195,25 @@ class Validator {
   }
 
   void overlaps() {
-    const std::vector<sph::Body>& bodies = fluid_.bodies;
-    for (std::size_t j = 0; j < bodies.size(); ++j) {
+    for (std::size_t j = 0; j < parts_.size(); ++j) {
       if (!usable_[j]) continue;
-      const Bounds extent = common(kept_, bounds(bodies[j].shape, dimension_));
+      const Part& later = parts_[j];
+      const Bounds extent = common(kept_, bounds(*later.shape, dimension_));
       for (std::size_t i = 0; i < j; ++i) {
         if (!usable_[i]) continue;
-        const Bounds window = common(extent, bounds(bodies[i].shape, dimension_));
-        if (const auto at = find_in_both(inside(bodies[i].shape, dimension_), inside(bodies[j].shape, dimension_), window,
-                                         tolerance(), dimension_))
-          complain(*draft_.body_nodes[j], "shape", "bodies." + bodies[j].name + " overlaps bodies." + bodies[i].name + ", e.g. at " +
-                                                       text(*at, dimension_) + " m; move one, or write subtract = [\"" +
-                                                       bodies[j].name + "\"] in bodies." + bodies[i].name);
+        const Part& first = parts_[i];
+        const Bounds window = common(extent, bounds(*first.shape, dimension_));
+        if (const auto at = find_in_both(inside(*first.shape, dimension_), inside(*later.shape, dimension_), window, tolerance(),
+                                         dimension_))
+          complain(*later.node, "shape", later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
+                                             " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
       }
       if (!solid_ || dimension_ != 3) continue;
       const Shape solid{*solid_, {}};
       const Bounds window = common(extent, bounds(solid, 3));
-      if (const auto at = find_in_both(inside(solid, 3), inside(bodies[j].shape, 3), window, tolerance(), 3))
-        complain(*draft_.body_nodes[j], "shape", "bodies." + bodies[j].name + " overlaps the structure, e.g. at " + text(*at, 3) +
-                                                     " m; make it end at the structure's face");
+      if (const auto at = find_in_both(inside(solid, 3), inside(*later.shape, 3), window, tolerance(), 3))
+        complain(*later.node, "shape", later.path() + " overlaps the structure, e.g. at " + text(*at, 3) +
+                                           " m; make it end at the structure's face");
     }
   }
 
@@ -225,38 +267,94 @@ class Validator {
     if (!draft_.structure_node || dimension_ != 3) return;
     const Node& node = *draft_.structure_node;
     const fem::Settings& structure = *scene_.structure;
-    if (solid_) mirrored_structure(node);
+    if (solid_) halved("structure", node, *solid_);
     const bool fluid = !fluid_.bodies.empty();
     if (fluid && structure.wet_faces.empty())
       complain(node, "wet", "structure.wet is empty, so the water does not see the structure; name the faces that it touches, "
                             "e.g. wet = [\"inner\"]");
     if (draft_.body_nodes.empty() && !structure.wet_faces.empty())
       complain(node, "wet", "structure.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
-    if (!fluid || !solid_ || !draft_.spacing_good || std::find(usable_.begin(), usable_.end(), false) != usable_.end()) return;
-    for (const std::string& face : structure.wet_faces) {
-      const std::vector<Vec3> points = face_points(structure.mesh, face);
-      const bool touched = points.empty() || std::any_of(points.begin(), points.end(), [&](const Vec3& x) {
-        for (const int axis : structure.symmetry_axes)
-          if (x[axis] < -tolerance()) return false;
-        return std::any_of(fluid_.bodies.begin(), fluid_.bodies.end(), [&](const sph::Body& body) {
-          return signed_distance(body.shape, x, 3) <= near();
-        });
-      });
-      if (!touched)
-        complain(node, "wet", "structure.wet: the face '" + face + "' touches no water: no body comes within two spacings (" +
-                                  rounded(near()) + " m) of it; move the water or the structure, or leave the face out");
+    if (fluid && solid_ && draft_.spacing_good && all_usable())
+      for (const std::string& face : structure.wet_faces) wet_face("structure", node, *solid_, face);
+  }
+
+  void wet_face(const std::string& path, const Node& node, const Primitive& shape, const std::string& face) {
+    const std::vector<Vec3> points = face_points(shape, face);
+    const bool touched = points.empty() || std::any_of(points.begin(), points.end(), [&](const Vec3& x) {
+      for (int a = 0; a < dimension_; ++a)
+        if (fluid_.symmetry.axis[a] && x[a] < -tolerance()) return false;
+      return touches_water(x);
+    });
+    if (!touched)
+      complain(node, "wet", path + ".wet: the face '" + face + "' touches no water: no body comes within two spacings (" +
+                                rounded(near()) + " m) of it; move the water or the " + (path == "structure" ? "structure" : "solid") +
+                                ", or leave the face out");
+  }
+
+  void solids() {
+    const bool fluid = !draft_.body_nodes.empty();
+    for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
+      if (!usable_[fluid_.bodies.size() + i]) continue;
+      const sph::SolidBody& solid = fluid_.solids[i];
+      const Node& node = *draft_.solid_nodes[i];
+      const std::string path = "solids." + solid.name;
+      halved(path, node, solid.shape.base);
+      const Bounds extent = bounds(solid.shape, dimension_);
+      for (int a = 0; a < dimension_; ++a) {
+        if (!fluid_.symmetry.axis[a] || extent.low[a] >= 0) continue;
+        Vec3 mirrored = solid.spin;  // mirrors turn a spin about any other axis round
+        mirrored[a] = 0;
+        if (solid.velocity[a] != 0 || mirrored.norm() > 0) {
+          complain(node, solid.velocity[a] != 0 ? "velocity" : "spin",
+                   path + ": its motion is not its own mirror image across the symmetry plane " + "xyz"[a] +
+                       " = 0; change the motion or leave the plane out");
+        }
+      }
+      if (!solid.wet.empty() && !fluid)
+        complain(node, "wet", path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
+      if (solid.wet.empty() && fluid && scene_.coupling.solids == coupling::SolidContact::surface)
+        complain(node, "wet", path + ".wet is empty, but coupling.solids = \"surface\" couples by wet faces; name those that the "
+                                  "water touches");
+      const bool drawn = dimension_ == 3 || is_round(solid.shape.base, dimension_) || std::holds_alternative<Box>(solid.shape.base);
+      if (fluid && drawn && draft_.spacing_good && all_usable())
+        for (const std::string& face : solid.wet) wet_face(path, node, solid.shape.base, face);
     }
   }
 
-  /// A symmetry plane that meets a structure must halve it.
-  void mirrored_structure(const Node& node) {
-    const Bounds extent = bounds(*solid_, 3);
-    for (const int axis : scene_.structure->symmetry_axes) {
-      const double low = extent.low[axis], high = extent.high[axis];
-      if (low >= 0 || std::abs(low + high) <= 1e-9 * (high - low)) continue;
-      complain(node, "shape", std::string("structure: the symmetry plane ") + "xyz"[axis] + " = 0 does not halve it (it runs from " +
-                                  rounded(low) + " to " + rounded(high) + " m); centre the whole structure on the plane");
+  /// No solid may start beyond a rigid plane.
+  void planes() {
+    for (std::size_t k = 0; k < fluid_.planes.size(); ++k) {
+      const sph::RigidPlane& plane = fluid_.planes[k];
+      if (plane.axis >= dimension_) continue;
+      for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
+        if (!usable_[fluid_.bodies.size() + i]) continue;
+        const Bounds extent = common(kept_, bounds(fluid_.solids[i].shape, dimension_));
+        const double beyond = plane.body_above ? plane.position - extent.low[plane.axis] : extent.high[plane.axis] - plane.position;
+        if (beyond > tolerance())
+          complain(*draft_.plane_nodes[k], "position",
+                   "planes." + std::to_string(k) + ": solids." + fluid_.solids[i].name + " starts " + rounded(beyond) +
+                       " m beyond the plane " + "xyz"[plane.axis] + " = " + rounded(plane.position) + ", whose free side is " +
+                       (plane.body_above ? "above" : "below") + "; move one of them");
+      }
     }
+  }
+
+  /// A symmetry plane that meets a structure or a solid must halve it.
+  void halved(const std::string& path, const Node& node, const Primitive& shape) {
+    const Bounds extent = bounds(shape, dimension_);
+    for (int axis = 0; axis < dimension_; ++axis) {
+      const double low = extent.low[axis], high = extent.high[axis];
+      if (!fluid_.symmetry.axis[axis] || low >= 0 || std::abs(low + high) <= 1e-9 * (high - low)) continue;
+      complain(node, "shape", path + ": the symmetry plane " + "xyz"[axis] + " = 0 does not halve it (it runs from " + rounded(low) +
+                                  " to " + rounded(high) + " m); centre the whole " +
+                                  (path == "structure" ? "structure" : "solid") + " on the plane");
+    }
+  }
+
+  double distance_to_solids(const Vec3& x) const {
+    double away = 1e300;
+    for (const sph::SolidBody& solid : fluid_.solids) away = std::min(away, signed_distance(solid.shape, x, dimension_));
+    return away;
   }
 
   void probe(const Probe& probe, const Node& node) {
@@ -267,8 +365,13 @@ class Validator {
         return;
       }
     if (probe.kind == Probe::Kind::structure) {
-      if (!draft_.structure_node) {
-        complain(node, "kind", path + " is a structure probe, but the scene has no [structure]; add one or change kind");
+      if (!draft_.structure_node && draft_.solid_nodes.empty()) {
+        complain(node, "kind", path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
+      } else if (!draft_.solid_nodes.empty() && all_usable()) {
+        double thinnest = 1e300;
+        for (const sph::SolidBody& solid : fluid_.solids) thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
+        if (const double away = distance_to_solids(probe.point); away > 0.1 * thinnest)
+          complain(node, "point", path + ".point is " + rounded(away) + " m away from every solid; move it onto one");
       } else if (solid_ && dimension_ == 3) {
         const double away = signed_distance(*solid_, probe.point, 3);
         if (away > 0.1 * thickness(*solid_, 3))
@@ -280,20 +383,21 @@ class Validator {
       complain(node, "kind", path + " reads the fluid, but the scene has no [[bodies]]; add the fluid or change kind");
       return;
     }
-    if (!draft_.spacing_good || std::find(usable_.begin(), usable_.end(), false) != usable_.end()) return;
+    if (!draft_.spacing_good || !all_usable()) return;
     for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
       if (!draft_.wall_shape_good[w]) return;
     const bool gmsh = scene_.structure && !solid_;
     if (probe.kind == Probe::Kind::wall) {
       const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
-      if (fluid_.walls.empty() && !wet && !gmsh) {
-        complain(node, "kind", path + " is a wall probe, but the scene has neither [[walls]] nor a wet face; take kind = \"fluid\"");
+      if (fluid_.walls.empty() && !wet && !gmsh && fluid_.solids.empty()) {
+        complain(node, "kind", path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");
         return;
       }
       double away = 1e300;
       for (const sph::Wall& wall : fluid_.walls)
         away = std::min(away, std::abs(signed_distance(wall.container, probe.point, dimension_)));
       if (solid_ && dimension_ == 3) away = std::min(away, std::abs(signed_distance(*solid_, probe.point, 3)));
+      away = std::min(away, std::abs(distance_to_solids(probe.point)));
       if (away > near() && !gmsh)
         complain(node, "point", path + ".point is " + rounded(away) + " m away from every wall, more than two spacings; move it to the wall");
       return;
@@ -311,8 +415,9 @@ class Validator {
   sph::Settings& fluid_;
   int dimension_;
   Bounds kept_;
-  std::optional<Primitive> solid_;
-  std::vector<bool> usable_;
+  std::optional<Primitive> solid_;  // of the [structure]
+  std::vector<Part> parts_;
+  std::vector<bool> usable_;        // beside parts_: can it be compared with others?
 };
 
 }  // namespace

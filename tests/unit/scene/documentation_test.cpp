@@ -61,6 +61,15 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   expect("[structure]", "courant", structure.courant);
   expect("[structure]", "linear_viscosity", structure.linear_viscosity);
   expect("[structure]", "quadratic_viscosity", structure.quadratic_viscosity);
+  const sph::SolidNumerics solids;
+  expect("[solid_scheme]", "eta", solids.eta);
+  expect("[solid_scheme]", "courant", solids.courant);
+  expect("[solid_scheme]", "linear_viscosity", solids.linear_viscosity);
+  expect("[solid_scheme]", "quadratic_viscosity", solids.quadratic_viscosity);
+  expect("[solid_scheme]", "hourglass", solids.hourglass);
+  expect("[solid_scheme]", "alpha", solids.alpha);
+  expect("[solid_scheme]", "beta", solids.beta);
+  expect("[solid_scheme]", "artificial_stress", solids.artificial_stress);
   expect("[coupling]", "window", coupling.window);
   EXPECT_NE(part("[scheme]").find(numerics.scheme == sph::SchemeName::riemann ? "`name` | - | \"riemann\"" : "`name` | - | \"monaghan\""),
             std::string::npos);
@@ -76,7 +85,7 @@ TEST(Documentation, ExamplesAreGoodScenes) {
     ++count;
     EXPECT_EQ(mistakes(example), "") << example;
   }
-  EXPECT_GE(count, 4);
+  EXPECT_GE(count, 5);
 }
 
 }  // namespace

@@ -107,9 +107,34 @@ TEST(Geometry, ProbesInNowhere) {
   expect(two_gases + "[[probes]]\nname = \"far\"\npoint = 3\n",
          "21:9: probes.far.point lies outside everything: 2 m from the nearest fluid or wall; move it");
   expect(two_gases + "[[probes]]\nname = \"a\"\nkind = \"structure\"\npoint = 0.5\n",
-         "21:8: probes.a is a structure probe, but the scene has no [structure]");
+         "21:8: probes.a is a structure probe, but the scene has no [structure] and no [[solids]]");
   expect(two_gases + "[[probes]]\nname = \"a\"\nkind = \"wall\"\npoint = 0.5\n",
-         "21:8: probes.a is a wall probe, but the scene has neither [[walls]] nor a wet face");
+         "21:8: probes.a is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]");
+}
+
+TEST(Geometry, Solids) {
+  expect(with(impact, "0.0121", "0.0115"), "17:9: solids.plate overlaps solids.ball, e.g. at [");
+  expect(with(bathed_disc, "subtract = [\"disc\"]\n", ""),
+         "14:9: solids.disc overlaps bodies.water, e.g. at [");
+  expect(with(bathed_disc, "subtract = [\"disc\"]", "subtract = [\"dsic\"]"),
+         "10:13: bodies.water.subtract: no body 'dsic'; did you mean 'disc'?");
+  expect(with(bathed_disc, "name = \"disc\"", "name = \"water\""), "14:8: solids: the name 'water' is that of a body; choose another one");
+  expect(with(impact, "name = \"plate\"", "name = \"ball\""), "16:8: solids: the name 'ball' is used twice; choose another one");
+  expect(with(impact, "position = -0.01", "position = -0.001"),
+         "22:12: planes.0: solids.plate starts 0.001 m beyond the plane z = -0.001, whose free side is above; move one of them");
+  expect(with(impact, "low = [-0.05,", "low = [-0.04,"),
+         "17:9: solids.plate: the symmetry plane x = 0 does not halve it (it runs from -0.04 to 0.05 m); centre the whole solid");
+  expect(with(impact, "velocity = [0, 0, -1000]", "velocity = [1, 0, -1000]"),
+         "13:12: solids.ball: its motion is not its own mirror image across the symmetry plane x = 0; change the motion");
+  expect(with(impact, "velocity = [0, 0, -1000]", "spin = [0, 0, 3]"), "13:8: solids.ball: its motion is not its own mirror image");
+  EXPECT_EQ(mistakes(with(impact, "velocity = [0, 0, -1000]", "spin = [3, 0, 0]")), "");
+  expect(with(impact, "velocity = [0, 0, -1000]", "wet = [\"side\"]"),
+         "13:7: solids.ball.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
+  expect(with(impact, "point = [0, 0, -0.002]", "point = [0, 0, -0.004]"),
+         "26:9: probes.middle.point is 0.002 m away from every solid; move it onto one");
+  expect(with(bathed_disc, "point = [0.01, 0]", "point = [0.02, 0]"), "22:9: probes.rim.point is 0.01 m away from every wall");
+  expect(with(bathed_disc, "wet = [\"side\"]", "") + "[coupling]\nsolids = \"surface\"\n",
+         "13:1: solids.disc.wet is empty, but coupling.solids = \"surface\" couples by wet faces");
 }
 
 TEST(Geometry, NamesAndFit) {

@@ -116,12 +116,40 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
                                                        "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\n",
        "19:1: [structure] needs dimension = 3, but the scene has dimension = 1\n"},
       {"coupling of nothing", two_gases + "[coupling]\nslip = false\n",
-       "19:1: [coupling] has nothing to couple: the scene has no [structure]; remove it or add one\n"},
+       "19:1: [coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one\n"},
       {"circle of materials", with(two_gases, "dimension = 1", "dimension = 1\nmaterials = {a = {base = \"b\"}, b = {base = \"a\"}}"),
        "the materials are based on each other in a circle; base one of them on the library\n"},
       {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
        "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
-      {"nothing", "end_time = 1\n", "1:1: the scene has neither [[bodies]] nor a [structure]: there is nothing to compute; add one\n"},
+      {"unknown key of a solid", with(impact, "velocity =", "veloctiy ="),
+       "13:1: unknown key 'veloctiy' in solids.ball; did you mean 'velocity'?\n"},
+      {"description", with(impact, "velocity = [0, 0, -1000]", "description = \"lagrangian\""),
+       "13:15: solids.ball.description: unknown 'lagrangian'"},
+      {"rings of a box", with(impact, "velocity = [0, 0, -1000]", "lattice = \"rings\""),
+       "13:11: solids.ball.lattice = \"rings\" needs a cylinder or tube, round in the scene; take \"cartesian\"\n"},
+      {"face of a solid", with(bathed_disc, "wet = [\"side\"]", "wet = [\"sides\"]"),
+       "17:7: solids.disc.wet: unknown 'sides'; did you mean 'side'?\n"},
+      {"residual stress of no disc", with(impact, "velocity = [0, 0, -1000]", "residual_stress = 1e8"),
+       "13:19: solids.ball.residual_stress needs a whole cylinder or disc"},
+      {"spin out of the plane", with(bathed_disc, "wet = [\"side\"]", "spin = [1, 0, 0]"),
+       "17:8: solids.disc.spin must be a number in rad/s in two dimensions: only z is left to turn about\n"},
+      {"solid without spacing", with(impact, "spacing = 0.001", ""),
+       "3:1: resolution.spacing is missing; give the distance of particles in m, e.g. spacing = 0.002\n"},
+      {"solid of water", with(bathed_disc, "\"copper-ofhc\"", "\"water-tait\""), "16:12: solids.disc.material: 'water-tait' is a fluid"},
+      {"solids in one dimension", two_gases + "[[solids]]\nname = \"s\"\nshape = {type = \"box\", low = 2, high = 3}\n"
+                                              "material = \"copper-ofhc\"\n",
+       "19:1: [[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1\n"},
+      {"solids and structure", coupled_tube + "[[solids]]\nname = \"s\"\nshape = {type = \"sphere\", center = [1, 0, 0], radius = 0.1}\n"
+                                              "material = \"copper-ofhc\"\n",
+       "21:1: [structure] and [[solids]] in one scene are not built"},
+      {"plane across no axis", with(bathed_disc, "[[probes]]", "[[planes]]\naxis = \"z\"\n[[probes]]"),
+       "20:8: planes.0.axis: the scene has dimension = 2, so no such axis\n"},
+      {"planes without solids", two_gases + "[[planes]]\naxis = \"x\"\n",
+       "19:1: [[planes]] stop solids only, and the scene has no [[solids]]; for fluid take [[walls]]\n"},
+      {"side of a plane", with(impact, "position = -0.01", "free_side = \"left\""), "22:13: planes.0.free_side: unknown 'left'; known: above, below\n"},
+      {"field of solids", impact + "[output]\nsolid_fields = [\"mises\"]\n", "28:16: output.solid_fields: unknown 'mises'"},
+      {"scheme without solids", two_gases + "[solid_scheme]\neta = 1.2\n", "19:1: [solid_scheme] without [[solids]]: add one, or remove it\n"},
+      {"nothing", "end_time = 1\n", "1:1: the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one\n"},
   };
   for (const Mistake& each : all) {
     const std::string found = mistakes(each.scene);
@@ -132,6 +160,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
 TEST(Mistakes, GoodScenesHaveNone) {
   EXPECT_EQ(mistakes(coupled_tube), "");
   EXPECT_EQ(mistakes(two_gases), "");
+  EXPECT_EQ(mistakes(impact), "");
+  EXPECT_EQ(mistakes(bathed_disc), "");
 }
 
 TEST(Mistakes, OfAMaterialUsedTwiceAreReportedOnce) {

@@ -140,7 +140,41 @@ material = {rho0 = 1e3, young_modulus = 1e9, poisson_ratio = 0.1, flow = {law = 
 shape = {type = "gmsh", path = "case.toml"}
 material = "copper-ofhc"
 )",
-                                    coupled_tube, two_gases};
+                                    R"(dimension = 2
+end_time = 1e-4
+[[solids]]
+name = "disc"
+shape = {type = "cylinder", center = [0, 0.25], radius = 0.1}
+material = {rho0 = 1e3, young_modulus = 1e9, poisson_ratio = 0.1, flow = {law = "elastic"}}
+description = "updated_lagrangian"
+spacing = 0.01
+lattice = "cartesian"
+velocity = [1, 2]
+spin = 3
+residual_stress = 1e5
+[[solids]]
+name = "ring"
+shape = {type = "tube", inner_radius = 0.2, outer_radius = 0.3}
+subtract = [{type = "box", low = [0.2, 0], high = [1, 1]}, "disc"]
+material = "copper-ofhc"
+spacing = 0.01
+[solid_scheme]
+eta = 1.2
+courant = 0.4
+linear_viscosity = 0.05
+quadratic_viscosity = 1.1
+hourglass = 0.2
+alpha = 0.5
+beta = 1
+artificial_stress = 0.3
+[[planes]]
+axis = "y"
+position = 1
+free_side = "below"
+[output]
+solid_fields = ["mass", "damage"]
+)",
+                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n"};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
   for (const std::string& text : rich) {
@@ -206,6 +240,28 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.output.field_times, (std::vector<double>{1e-6, 2e-6}));
   EXPECT_FALSE(scene.output.structure_fields);
   EXPECT_EQ(scene.comparison.probe, "c");
+}
+
+TEST(RoundTrip, SolidsHoldTheValuesGiven) {
+  const Scene scene = read(Scratch().write(rich[4]));
+  ASSERT_EQ(scene.fluid.solids.size(), 2u);
+  const sph::SolidBody& disc = scene.fluid.solids[0];
+  EXPECT_EQ(disc.description, sph::Description::updated_lagrangian);
+  EXPECT_EQ(disc.lattice, sph::LatticeType::cartesian);
+  EXPECT_EQ(disc.velocity, Vec3(1, 2, 0));
+  EXPECT_EQ(disc.spin, Vec3(0, 0, 3));
+  EXPECT_EQ(disc.residual_stress, 1e5);
+  const sph::SolidBody& ring = scene.fluid.solids[1];
+  EXPECT_EQ(ring.description, sph::Description::total_lagrangian);
+  EXPECT_EQ(ring.lattice, sph::LatticeType::rings);
+  EXPECT_EQ(ring.shape.removed.size(), 2u);
+  EXPECT_EQ(scene.fluid.solid_numerics.artificial_stress, 0.3);
+  ASSERT_EQ(scene.fluid.planes.size(), 1u);
+  EXPECT_EQ(scene.fluid.planes[0].axis, 1);
+  EXPECT_EQ(scene.fluid.planes[0].position, 1);
+  EXPECT_FALSE(scene.fluid.planes[0].body_above);
+  EXPECT_EQ(scene.output.solid_fields, (std::vector<std::string>{"mass", "damage"}));
+  EXPECT_EQ(read_text(impact).coupling.solids, coupling::SolidContact::particles);
 }
 
 // Keys that a resolved scene does not need: other spellings of what it holds.

@@ -110,4 +110,56 @@ density = 0.125
 energy = 2
 )";
 
+const std::string impact = R"(end_time = 1e-5
+
+[resolution]
+spacing = 0.001
+
+[symmetry]
+planes = ["x"]
+
+[[solids]]
+name = "ball"
+shape = {type = "sphere", center = [0, 0, 0.0121], radius = 0.01}
+material = "al-6061-t6"
+velocity = [0, 0, -1000]
+
+[[solids]]
+name = "plate"
+shape = {type = "box", low = [-0.05, -0.05, -0.002], high = [0.05, 0.05, 0.002]}
+material = "al-6061-t6"
+
+[[planes]]
+axis = "z"
+position = -0.01
+
+[[probes]]
+name = "middle"
+point = [0, 0, -0.002]
+)";
+
+const std::string bathed_disc = R"(dimension = 2
+end_time = 1e-5
+
+[resolution]
+spacing = 0.001
+
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [-0.03, -0.03], high = [0.03, 0.03]}
+subtract = ["disc"]
+material = "water-tait"
+
+[[solids]]
+name = "disc"
+shape = {type = "cylinder", radius = 0.01}
+material = "copper-ofhc"
+wet = ["side"]
+
+[[probes]]
+name = "rim"
+kind = "wall"
+point = [0.01, 0]
+)";
+
 }  // namespace undex::scene::test

@@ -32,7 +32,7 @@ std::string mistakes(const std::string& text, const std::vector<Override>& overr
 /// `text` with its one occurrence of `old` replaced.
 std::string with(std::string text, const std::string& old, const std::string& replacement);
 
-/// A small, good scene of a coupled tube, and one of a gas in one dimension.
-extern const std::string coupled_tube, two_gases;
+/// Small, good scenes: a coupled tube, a gas in one dimension, and of solids in particles an impact and a disc in water.
+extern const std::string coupled_tube, two_gases, impact, bathed_disc;
 
 }  // namespace undex::scene::test
