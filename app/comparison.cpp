@@ -14,9 +14,26 @@ const scene::Probe* find_probe(const scene::Scene& scene, const std::string& nam
   return nullptr;
 }
 
+/// The tube that a probe lies on: the structure, or the nearest solid of such a shape.
+std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
+  if (scene.structure)
+    if (const auto* t = std::get_if<fem::TubeMesh>(&scene.structure->mesh))
+      return TubeShape{t->axis, t->center, t->inner_radius, t->outer_radius, t->low, t->high};
+  std::optional<TubeShape> nearest;
+  double least = 1e300;
+  for (const sph::SolidBody& solid : scene.fluid.solids) {
+    const double away = signed_distance(solid.shape, point, scene.fluid.dimension);
+    if (const auto* t = std::get_if<TubeShape>(&solid.shape.base); t && away < least) {
+      least = away;
+      nearest = *t;
+    }
+  }
+  return nearest;
+}
+
 /// The component of a vector history along the outward radius at the probe.
 output::Series radial(const scene::Scene& scene, const Probes& probes, const scene::Probe& probe, const std::string& quantity) {
-  const auto* tube = std::get_if<fem::TubeMesh>(&scene.structure->mesh);
+  const std::optional<TubeShape> tube = tube_at(scene, probe.point);
   Vec3 outward = probe.point - (tube ? tube->center : Vec3::Zero());
   outward[tube ? tube->axis : 2] = 0.0;
   outward.normalize();
@@ -24,6 +41,7 @@ output::Series radial(const scene::Scene& scene, const Probes& probes, const sce
   const char* const component[3] = {"_x", "_y", "_z"};
   for (int a = 0; a < 3; ++a) {
     const output::Series part = probes.series(probe.name, quantity + component[a]);
+    if (part.empty()) continue;  // a plane scene has no z
     if (sum.empty()) sum = {part.t, std::vector<double>(part.y.size(), 0.0)};
     for (std::size_t k = 0; k < part.y.size(); ++k) sum.y[k] += outward[a] * part.y[k];
   }
@@ -48,7 +66,7 @@ output::NamedNumbers rigid_cylinder(const scene::Scene& scene, const Probes& pro
 output::NamedNumbers tube(const scene::Scene& scene, const Probes& probes) {
   output::TubeHistories histories;
   const scene::Probe* outer = find_probe(scene, scene.comparison.probe);
-  if (outer && scene.structure) {
+  if (outer && outer->kind == scene::Probe::Kind::structure) {
     histories.displacement = radial(scene, probes, *outer, "displacement");
     histories.velocity = radial(scene, probes, *outer, "velocity");
     histories.plastic_strain = probes.series(outer->name, "plastic_strain");

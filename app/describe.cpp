@@ -38,8 +38,24 @@ Bounds kept_part(const scene::Scene& scene) {
   return part;
 }
 
+const char* const unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
+
+std::string solid_bodies(const scene::Scene& scene, const sph::Solids& solids) {
+  const std::vector<std::size_t> count = solids.particles_by_body();
+  const int dimension = scene.fluid.dimension;
+  std::string text = "solids in particles\n";
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const sph::SolidBody& solid = scene.fluid.solids[i];
+    text += format("  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n", solid.name.c_str(), count[i],
+                   volume(solid.shape, kept_part(scene), dimension), unit[dimension - 1], solid.material.name.c_str(),
+                   solid.spacing.value_or(scene.fluid.lattice.spacing),
+                   solid.description == sph::Description::total_lagrangian ? "total" : "updated");
+  }
+  return text + format("  %.6g kg, stable step %.4g us (%s)\n", solids.ledger().mass, solids.stable_step() * 1e6,
+                       solids.stable_step_owner().c_str());
+}
+
 std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
-  const char* const unit[3] = {"m", "m^2", "m^3"};
   const int dimension = scene.fluid.dimension;
   const std::vector<std::size_t> count = fluid.particles_by_body();
   std::string text;
@@ -75,6 +91,10 @@ std::string describe(const scene::Scene& given) {
                    scene.structure->material.name.c_str(), structure->cell_count(), structure->node_count(),
                    structure->total_mass(), structure->stable_step() * 1e6);
     memory += double(structure->memory_bytes());
+  }
+  if (const sph::Solids* solids = simulation.solids()) {
+    text += solid_bodies(scene, *solids);
+    memory += double(solids->memory_bytes());
   }
 
   // A few steps, for a second at most; the quickest counts, as other programs may be running too.

@@ -23,6 +23,39 @@ std::vector<output::Column> columns_of(const std::string& quantity, int dimensio
   return columns;
 }
 
+/// The point of the solids' surfaces nearest to x, if one lies within `reach` [m].
+std::optional<Vec3> nearest_surface(const sph::Settings& settings, const Vec3& x, double reach) {
+  std::optional<Vec3> nearest;
+  double best = reach;
+  for (const sph::SolidBody& solid : settings.solids) {
+    const auto distance = [&](const Vec3& at) { return signed_distance(solid.shape, at, settings.dimension); };
+    const double away = distance(x);
+    if (std::abs(away) > best) continue;
+    best = std::abs(away);
+    Vec3 outward = Vec3::Zero();
+    for (int a = 0; a < settings.dimension; ++a) {
+      const Vec3 step = 1e-3 * reach * Vec3::Unit(a);
+      outward[a] = distance(x + step) - distance(x - step);
+    }
+    nearest = x - away * outward.stableNormalized();
+  }
+  return nearest;
+}
+
+/// Columns of a material point, whichever solver it belongs to.
+template <class Values>
+void append_material(const Values& v, const std::vector<std::string>& quantities, int dimension, std::vector<double>& row) {
+  const auto vector = [&](const Vec3& value) { row.insert(row.end(), value.data(), value.data() + dimension); };
+  for (const std::string& quantity : quantities) {
+    if (quantity == "displacement") vector(v.displacement);
+    if (quantity == "velocity") vector(v.velocity);
+    if (quantity == "plastic_strain") row.push_back(v.plastic_strain);
+    if (quantity == "temperature") row.push_back(v.temperature);
+    if (quantity == "stress")
+      for (const auto& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}) row.push_back(v.stress(i, j));
+  }
+}
+
 }  // namespace
 
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
@@ -39,10 +72,17 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
       // Nearer to the wet face than to any rigid wall: it moves with the face.
       if (foot->distance > 2.0 * scene.fluid.lattice.spacing) foot.reset();
     }
-    if (probe.kind == scene::Probe::Kind::structure) material = simulation.structure()->locate(probe.point);
+    std::optional<sph::Solids::Point> solid;
+    if (const sph::Solids* solids = simulation.solids()) {
+      if (probe.kind == scene::Probe::Kind::structure) solid = solids->locate(probe.point);
+      if (probe.kind == scene::Probe::Kind::wall)
+        if (const auto at = nearest_surface(scene.fluid, probe.point, 2.0 * scene.fluid.lattice.spacing)) solid = solids->locate(*at);
+    } else if (probe.kind == scene::Probe::Kind::structure) {
+      material = simulation.structure()->locate(probe.point);
+    }
     const std::size_t count = columns.size();
     output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back({probe, foot, material, std::move(columns), std::move(history), std::vector<std::vector<double>>(count)});
+    channels_.push_back({probe, foot, material, solid, std::move(columns), std::move(history), std::vector<std::vector<double>>(count)});
   }
 }
 
@@ -50,18 +90,13 @@ std::vector<double> Probes::read(const Channel& channel, const Simulation& simul
   std::vector<double> row{simulation.time()};
   const auto vector = [&](const Vec3& v) { row.insert(row.end(), v.data(), v.data() + dimension_); };
   if (channel.probe.kind == scene::Probe::Kind::structure) {
-    const fem::Structure::ProbeValues v = simulation.structure()->read(*channel.material);
-    for (const std::string& quantity : channel.probe.quantities) {
-      if (quantity == "displacement") vector(v.displacement);
-      if (quantity == "velocity") vector(v.velocity);
-      if (quantity == "plastic_strain") row.push_back(v.plastic_strain);
-      if (quantity == "temperature") row.push_back(v.temperature);
-      if (quantity == "stress")
-        for (const auto& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}) row.push_back(v.stress(i, j));
-    }
+    if (channel.solid) append_material(simulation.solids()->read(*channel.solid), channel.probe.quantities, dimension_, row);
+    else append_material(simulation.structure()->read(*channel.material), channel.probe.quantities, dimension_, row);
     return row;
   }
-  const Vec3 place = channel.foot ? simulation.coupler()->position_of(*channel.foot) : channel.probe.point;
+  const Vec3 place = channel.foot    ? simulation.coupler()->position_of(*channel.foot)
+                     : channel.solid ? simulation.solids()->read(*channel.solid).position
+                                     : channel.probe.point;
   const sph::PointValues v = simulation.fluid()->at(place);
   for (const std::string& quantity : channel.probe.quantities) {
     if (quantity == "pressure") row.push_back(v.pressure);

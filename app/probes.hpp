@@ -33,7 +33,8 @@ class Probes {
   struct Channel {
     scene::Probe probe;
     std::optional<coupling::WetWall::Foot> foot;     ///< of wall probes on a moving wall
-    std::optional<fem::Structure::Probe> material;   ///< of structure probes
+    std::optional<fem::Structure::Probe> material;   ///< of structure probes on finite elements
+    std::optional<sph::Solids::Point> solid;         ///< of structure probes on solids, and of wall probes at their surface
     std::vector<output::Column> columns;
     output::History history;
     std::vector<std::vector<double>> samples;        ///< one series per column, time first

@@ -84,10 +84,15 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
                      {"filling", clamps.filling},
                      {"energy", clamps.energy}};
   }
+  if (const sph::Solids* solids = simulation.solids()) {
+    record.particles += std::int64_t(solids->particle_count());
+    record.particle_updates += std::int64_t(solids->particle_count()) * solids->steps();
+  }
   if (simulation.structure()) record.cells = std::int64_t(simulation.structure()->cell_count());
   record.peak_memory_bytes = output::peak_memory_bytes();
   record.mass_error = simulation.mass_error();
   record.momentum_error = simulation.momentum_error();
+  record.angular_momentum_error = simulation.angular_momentum_error();
   record.energy_error = simulation.energy().error();
   record.interface_energy_error = simulation.interface_energy_error();
   record.interface_impulse_error = simulation.interface_impulse_error();
@@ -106,7 +111,7 @@ void expect_energy(const Simulation& simulation, bool& was_off) {
   char text[300];
   std::snprintf(text, sizeof text,
                 "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv); a smaller scheme.courant (or "
-                "scheme.fixed_step, structure.courant) may hold it",
+                "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
                 simulation.time(), 100.0 * error);
   throw NumericalStop(text);
 }
@@ -122,6 +127,7 @@ void print_cost(const output::RunRecord& record) {
                 double(record.peak_memory_bytes) / double(record.particles));
   std::printf("energy error %.2e, mass error %.1e", record.energy_error, record.mass_error);
   if (record.momentum_error == record.momentum_error) std::printf(", momentum error %.1e", record.momentum_error);
+  if (record.angular_momentum_error) std::printf(", angular momentum error %.1e", *record.angular_momentum_error);
   if (record.interface_energy_error)
     std::printf(", interface energy error %.2e, impulse error %.1e", *record.interface_energy_error,
                 record.interface_impulse_error.value_or(0.0));

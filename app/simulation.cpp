@@ -21,6 +21,14 @@ Simulation::Simulation(const scene::Scene& scene) {
   if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
   if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
   if (structure_ && scene.fluid.start_time > 0) structure_->advance(scene.fluid.start_time, {});
+  if (!scene.fluid.solids.empty()) attempt([&] { solids_ = std::make_unique<sph::Solids>(scene.fluid); });
+  if (solids_ && scene.fluid.start_time > 0) solids_->advance(scene.fluid.start_time);
+  if (fluid_ && solids_) {
+    if (scene.coupling.solids == coupling::SolidContact::surface)
+      findings.push_back({{}, "coupling.solids = \"surface\" is not built yet; take \"particles\""});
+    else
+      attempt([&] { particle_system_ = std::make_unique<sph::ParticleSystem>(*fluid_, *solids_, scene.coupling.free_slip); });
+  }
   if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
     attempt([&] { coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *structure_, scene.coupling); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
@@ -32,19 +40,17 @@ Simulation::Simulation(const scene::Scene& scene) {
       planes = true;
     }
   const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty());
-  closed_ = !planes && scene.fluid.walls.empty() && !supports;
-  if (fluid_) {
-    start_mass_ = fluid_->ledger().mass;
-    start_momentum_ += fluid_->ledger().momentum;
-  }
-  if (structure_) start_momentum_ += structure_->momentum();
+  closed_ = !planes && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
+  start_mass_ = mass();
+  start_momentum_ = momentum();
+  if (solids_) start_angular_momentum_ = solids_->ledger().angular_momentum;
   const EnergyBalance start = energy();
   start_energy_ = start.total();
   energy_scale_ = std::abs(start_energy_);
 }
 
-double Simulation::time() const { return fluid_ ? fluid_->time() : structure_->time(); }
-long Simulation::steps() const { return fluid_ ? fluid_->steps() : structure_->steps(); }
+double Simulation::time() const { return fluid_ ? fluid_->time() : structure_ ? structure_->time() : solids_->time(); }
+long Simulation::steps() const { return fluid_ ? fluid_->steps() : structure_ ? structure_->steps() : solids_->steps(); }
 
 void Simulation::advance(double end) {
   char text[200];
@@ -53,6 +59,10 @@ void Simulation::advance(double end) {
     last_step_ = window.step;
     std::snprintf(text, sizeof text, "%s (%s) x%ld, structure x%ld", window.limit.criterion.c_str(),
                   window.limit.body.c_str(), window.fluid_steps, window.structure_steps);
+  } else if (particle_system_) {
+    const sph::ParticleSystem::Step step = particle_system_->advance(end);
+    last_step_ = step.step;
+    std::snprintf(text, sizeof text, "%s (%s), solids x%ld", step.limit.criterion.c_str(), step.limit.body.c_str(), step.solid_steps);
   } else if (fluid_) {
     const sph::StepLimit limit = fluid_->step_limit();
     const double left = end - fluid_->time();
@@ -60,6 +70,10 @@ void Simulation::advance(double end) {
     last_step_ = left < 3.0 * limit.step ? left / std::ceil(left / limit.step - 1e-9) : limit.step;
     fluid_->step(last_step_);
     std::snprintf(text, sizeof text, "%s (%s, particle %u)", limit.criterion.c_str(), limit.body.c_str(), limit.particle);
+  } else if (solids_) {
+    last_step_ = std::min(solids_->stable_step(), end - solids_->time());
+    std::snprintf(text, sizeof text, "%s", solids_->stable_step_owner().c_str());
+    solids_->advance(solids_->time() + last_step_);
   } else {
     last_step_ = std::min(structure_->stable_step(), end - structure_->time());
     const auto timer = timers_.measure("structure");
@@ -90,7 +104,15 @@ EnergyBalance Simulation::energy() const {
     e.viscous = copies_ * s.viscous;
     external = copies_ * s.external;
   }
-  if (coupler_)
+  if (solids_) {
+    const sph::SolidLedger s = solids_->ledger();
+    e.structure_kinetic = copies_ * s.kinetic;
+    e.elastic = copies_ * s.elastic;
+    e.plastic = copies_ * s.plastic;
+    e.viscous = copies_ * s.viscous;
+    external = copies_ * s.external;
+  }
+  if (coupler_ || particle_system_)
     e.work_received = external;
   else
     e.external = external;
@@ -99,27 +121,37 @@ EnergyBalance Simulation::energy() const {
   return e;
 }
 
-double Simulation::mass_error() const {
-  return fluid_ && start_mass_ > 0 ? std::abs(fluid_->ledger().mass / start_mass_ - 1.0) : 0.0;
+/// Of what is in particles [kg]: the mass of finite elements cannot change.
+double Simulation::mass() const {
+  return (fluid_ ? fluid_->ledger().mass : 0.0) + (solids_ ? solids_->ledger().mass : 0.0);
 }
+
+Vec3 Simulation::momentum() const {
+  Vec3 momentum = Vec3::Zero();
+  if (fluid_) momentum += fluid_->ledger().momentum;
+  if (structure_) momentum += structure_->momentum();
+  if (solids_) momentum += solids_->ledger().momentum;
+  return momentum;
+}
+
+double Simulation::mass_error() const { return start_mass_ > 0 ? std::abs(mass() / start_mass_ - 1.0) : 0.0; }
 
 double Simulation::momentum_error() const {
   if (!closed_) return std::numeric_limits<double>::quiet_NaN();
-  Vec3 momentum = Vec3::Zero();
-  double kinetic = 0, mass = 0;
-  if (fluid_) {
-    const sph::Ledger l = fluid_->ledger();
-    momentum += l.momentum;
-    kinetic += l.kinetic;
-    mass += l.mass;
-  }
-  if (structure_) {
-    momentum += structure_->momentum();
-    kinetic += structure_->energies().kinetic;
-    mass += structure_->total_mass();
-  }
-  const double scale = std::sqrt(2.0 * kinetic * mass);  // momentum if all of it went one way
-  return scale > 0 ? (momentum - start_momentum_).norm() / scale : 0.0;
+  const EnergyBalance e = energy();
+  const double moving = mass() + (structure_ ? structure_->total_mass() : 0.0);
+  const double scale = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic) * moving);  // momentum if all of it went one way
+  return scale > 0 ? (momentum() - start_momentum_).norm() / scale : 0.0;
+}
+
+std::optional<double> Simulation::angular_momentum_error() const {
+  if (!solids_ || fluid_ || !closed_) return std::nullopt;
+  const sph::SolidLedger l = solids_->ledger();
+  const std::vector<double> mass = solids_->field("mass");
+  double inertia = 0;  // [kg m^2]
+  for (std::size_t i = 0; i < mass.size(); ++i) inertia += mass[i] * solids_->positions()[i].squaredNorm();
+  const double scale = std::sqrt(2.0 * l.kinetic * inertia);  // no motion of that energy has more
+  return scale > 0 ? (l.angular_momentum - start_angular_momentum_).norm() / scale : 0.0;
 }
 
 std::optional<double> Simulation::interface_energy_error() const {
@@ -135,7 +167,9 @@ std::optional<double> Simulation::interface_impulse_error() const {
   return l.impulse_exchanged > 0 ? (l.impulse_given - l.impulse_received).norm() / l.impulse_exchanged : 0.0;
 }
 
-double Simulation::maximum_pressure() const { return fluid_ ? fluid_->maximum_pressure() : 0.0; }
+double Simulation::maximum_pressure() const {
+  return std::max(fluid_ ? fluid_->maximum_pressure() : 0.0, solids_ ? solids_->maximum_pressure() : 0.0);
+}
 
 output::NamedNumbers Simulation::passes() const {
   output::NamedNumbers all;
@@ -144,6 +178,7 @@ output::NamedNumbers Simulation::passes() const {
   };
   if (fluid_) add(fluid_->timers());
   if (coupler_) add(coupler_->timers());
+  if (solids_) add(solids_->timers());
   add(timers_);
   return all;
 }

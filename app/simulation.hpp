@@ -10,15 +10,17 @@
 #include "output/run_record.hpp"
 #include "scene/scene.hpp"
 #include "sph_fluid/fluid.hpp"
+#include "sph_fluid/particle_system.hpp"
+#include "sph_fluid/solids.hpp"
 
 namespace undex::app {
 
 /// Energies [J] of the whole body: what symmetry planes cut off is counted.
 struct EnergyBalance {
   double kinetic = 0, internal = 0, dissipated = 0;             // fluid
-  double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;
+  double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
   double work_given = 0, work_received = 0;                     // across the interface
-  double external = 0;                                          // work of prescribed loads on the structure
+  double external = 0;                                          // work of prescribed loads on the structure, of rigid planes on solids
   double start = 0;                                             // sum at the start
   double total() const {
     return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external;
@@ -34,7 +36,7 @@ class Simulation {
 
   double time() const;
   long steps() const;
-  /// One step (a coupling window where there are two solvers), not beyond `end` [s].
+  /// One step (a coupling window where two solvers are coupled), not beyond `end` [s].
   void advance(double end);
   /// What the last step was and what set it, in one phrase.
   std::string last_step() const;
@@ -42,8 +44,10 @@ class Simulation {
 
   EnergyBalance energy() const;
   double mass_error() const;
-  /// Relative change of momentum of fluid and structure together; NaN where walls, supports or symmetry planes take part.
+  /// Relative change of momentum of everything together; NaN where walls, rigid planes, supports or symmetry planes take part.
   double momentum_error() const;
+  /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
+  std::optional<double> angular_momentum_error() const;
   /// (work given - work received)/(work given) across the interface; nothing where there is none.
   std::optional<double> interface_energy_error() const;
   /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
@@ -54,12 +58,18 @@ class Simulation {
 
   const sph::Fluid* fluid() const { return fluid_.get(); }
   const fem::Structure* structure() const { return structure_.get(); }
+  const sph::Solids* solids() const { return solids_.get(); }
   const coupling::Coupler* coupler() const { return coupler_.get(); }
 
  private:
+  double mass() const;
+  Vec3 momentum() const;
+
   std::unique_ptr<sph::Fluid> fluid_;
   std::unique_ptr<fem::Structure> structure_;
+  std::unique_ptr<sph::Solids> solids_;
   std::unique_ptr<coupling::Coupler> coupler_;
+  std::unique_ptr<sph::ParticleSystem> particle_system_;
   PassTimers timers_;
   std::string last_text_ = "-";
   double last_step_ = 0;
@@ -67,7 +77,7 @@ class Simulation {
   double start_energy_ = 0, start_mass_ = 0;
   double energy_scale_ = 0;    // largest part of the energy met so far
   bool closed_ = false;        // does momentum balance without walls, supports and planes?
-  Vec3 start_momentum_ = Vec3::Zero();
+  Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();
 };
 
 }  // namespace undex::app

@@ -4,11 +4,31 @@
 #include <limits>
 
 namespace undex::app {
+namespace {
+
+/// The named fields of fluid or solids as the next snapshot of a file.
+template <class Particles>
+void write_particles(const Particles& particles, double time, const std::vector<std::string>& names, output::ParticleFields& file) {
+  const std::vector<double> place = particles.field("position");
+  std::vector<Vec3> position(place.size() / 3);
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
+  const std::vector<double> id = particles.field("id");
+  const std::vector<std::int64_t> ids(id.begin(), id.end());
+  std::vector<std::vector<double>> values;
+  for (const std::string& name : names) values.push_back(particles.field(name));
+  std::vector<output::Field> fields;
+  for (std::size_t f = 0; f < values.size(); ++f)
+    fields.push_back({names[f], names[f] == "velocity" || names[f] == "displacement" ? 3 : 1, values[f]});
+  file.write(time, position, fields, ids);
+}
+
+}  // namespace
 
 Snapshots::Snapshots(const scene::Scene& scene, const std::filesystem::path& folder) : wanted_(scene.output) {
   if (wanted_.field_interval <= 0 && wanted_.field_times.empty()) return;
   std::filesystem::create_directories(folder / "fields");
   if (!scene.fluid.bodies.empty()) particles_.emplace(folder / "fields" / "particles.h5part");
+  if (!scene.fluid.solids.empty()) solids_.emplace(folder / "fields" / "solids.h5part");
   if (scene.structure && wanted_.structure_fields) structure_.emplace(folder / "fields");
 }
 
@@ -22,20 +42,8 @@ double Snapshots::next_after(double time) const {
 }
 
 void Snapshots::write(const Simulation& simulation) {
-  if (particles_) {
-    const sph::Fluid& fluid = *simulation.fluid();
-    const std::vector<double> place = fluid.field("position");
-    std::vector<Vec3> position(place.size() / 3);
-    for (std::size_t i = 0; i < position.size(); ++i) position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
-    const std::vector<double> id = fluid.field("id");
-    const std::vector<std::int64_t> ids(id.begin(), id.end());
-    std::vector<std::vector<double>> values;
-    for (const std::string& name : wanted_.particle_fields) values.push_back(fluid.field(name));
-    std::vector<output::Field> fields;
-    for (std::size_t f = 0; f < values.size(); ++f)
-      fields.push_back({wanted_.particle_fields[f], wanted_.particle_fields[f] == "velocity" ? 3 : 1, values[f]});
-    particles_->write(simulation.time(), position, fields, ids);
-  }
+  if (particles_) write_particles(*simulation.fluid(), simulation.time(), wanted_.particle_fields, *particles_);
+  if (solids_) write_particles(*simulation.solids(), simulation.time(), wanted_.solid_fields, *solids_);
   if (structure_) {
     const fem::FieldView view = simulation.structure()->fields();
     output::StructureSnapshot snapshot{view.position, view.cells, {}, {}};

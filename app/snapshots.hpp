@@ -1,4 +1,4 @@
-// Field snapshots of a run: particles as H5Part, the structure as VTKHDF.
+// Field snapshots of a run: particles of fluid and of solids as H5Part, the structure as VTKHDF.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class Snapshots {
 
  private:
   const scene::Output& wanted_;
-  std::optional<output::ParticleFields> particles_;
+  std::optional<output::ParticleFields> particles_, solids_;
   std::optional<output::StructureFields> structure_;
 };
 

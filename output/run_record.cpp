@@ -67,6 +67,7 @@ std::string to_json(const RunRecord& record) {
   json["peak_memory_bytes"] = record.peak_memory_bytes;
   json["mass_error"] = record.mass_error;
   json["momentum_error"] = record.momentum_error;
+  if (record.angular_momentum_error) json["angular_momentum_error"] = *record.angular_momentum_error;
   json["energy_error"] = record.energy_error;
   if (record.interface_energy_error) json["interface_energy_error"] = *record.interface_energy_error;
   if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;

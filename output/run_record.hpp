@@ -21,13 +21,14 @@ struct RunRecord {
   std::int64_t steps = 0;
   double wall_time_s = 0, cpu_time_s = 0;
   int threads = 1;
-  std::int64_t particles = 0;                 ///< moving ones
+  std::int64_t particles = 0;                 ///< moving ones, of fluid and solids
   std::int64_t wall_particles = 0;
   std::int64_t cells = 0;                     ///< of the structure's mesh
-  std::int64_t particle_updates = 0;          ///< moving particles times steps
+  std::int64_t particle_updates = 0;          ///< moving particles times steps of their solver
   std::int64_t neighbour_interactions = 0;    ///< true neighbours, directed, over all steps
   std::int64_t peak_memory_bytes = 0;
   double mass_error = 0, momentum_error = 0, energy_error = 0;   ///< relative
+  std::optional<double> angular_momentum_error;                  ///< relative; closed scenes of solids in particles only
   std::optional<double> interface_energy_error;                  ///< coupled runs only
   std::optional<double> interface_impulse_error;                 ///< the same
   std::string program;                        ///< version text; left out when empty
