@@ -120,7 +120,7 @@ int list_scenes() {
         title = "(cannot be read: undex check says why)";
       }
       char line[400];
-      std::snprintf(line, sizeof line, "%-18s %s\n%-18s %s\n", name.c_str(), title.c_str(), "",
+      std::snprintf(line, sizeof line, "%-22s %s\n%-22s %s\n", name.c_str(), title.c_str(), "",
                     entry.path().lexically_normal().c_str());
       lines[name] = line;
     }

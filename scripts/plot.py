@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Pictures of a finished (or running) undex run: histories against the references, the mid-plane's pressure, the energies.
+"""Pictures of a finished (or running) undex run: histories against the references, the mid-plane's pressure, solids, energies.
 
 Usage: /usr/bin/python3 scripts/plot.py DIR [--reference FOLDER] [--times 15,30,...] [--dpi N]
        /usr/bin/python3 scripts/plot.py --compare DIR [--dpi N]      DIR: what undex compare wrote
 
-The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part and fields/structure_*.hdf as far
-as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py (Debian's own).
+The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part, solids.h5part and
+structure_*.hdf as far as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py
+(Debian's own).
 """
 import argparse
 import csv
@@ -314,11 +315,11 @@ def structure_polygons(path, normal, plane_axes, mirror):
     return polygons
 
 
-def particle_sizes(step, spacing, count):
-    """Diameter of the disc that stands for each particle: its volume's cube root where mass and density tell it."""
+def particle_sizes(step, spacing, count, dimension=3):
+    """Diameter of the disc that stands for each particle: that of its volume (area) where mass and density tell it."""
     if "mass" in step and "density" in step:
         volume = step["mass"][:] / np.maximum(step["density"][:], 1e-12)
-        size = np.cbrt(volume)
+        size = volume ** (1 / dimension)
         # A particle on an octant's plane keeps its whole mass, so the sizes need no correction.
         return np.clip(size, 0.5 * spacing, 6 * spacing)
     if "smoothing_length" in step:
@@ -353,84 +354,187 @@ def plot_profiles(run, file, steps, times, wanted_us):
     return figure
 
 
-def plot_mid_plane(run, wanted_us):
-    path = run.folder / "fields/particles.h5part"
+def read_snapshots(path):
+    """An open H5Part file, and names and times of its snapshots."""
     if not path.is_file():
         raise Missing(f"{path}: missing; ask for field snapshots in the scene's [output]")
     import h5py
 
-    with h5py.File(path) as file:
-        steps = sorted((name for name in file if re.fullmatch(r"Step#\d+", name)), key=lambda name: int(name[5:]))
-        if not steps:
-            raise Missing(f"{path}: no snapshots in it yet")
-        times = [float(np.ravel(file[name].attrs["TimeValue"])[0]) for name in steps]
-        first = file[steps[0]]
-        position = np.stack([first[axis][:] for axis in AXES], axis=1)
+    file = h5py.File(path)
+    steps = sorted((name for name in file if re.fullmatch(r"Step#\d+", name)), key=lambda name: int(name[5:]))
+    if not steps:
+        raise Missing(f"{path}: no snapshots in it yet")
+    return file, steps, [float(np.ravel(file[name].attrs["TimeValue"])[0]) for name in steps]
+
+
+def positions(step):
+    return np.stack([step[axis][:] for axis in AXES], axis=1).astype(float)
+
+
+class Section:
+    """The plane through the origin that is shown: it contains the axis `along` (the longest where none is named), drawn to
+    the right, and x, or y where x is that axis. A plane scene is its own section."""
+
+    def __init__(self, run, position, spacing, along=None):
         low, high = position.min(axis=0), position.max(axis=0)
-        spacing = run.setting("resolution.spacing")
         if not spacing:
             sides = (high - low)[high > low]
             spacing = float((np.prod(sides) / len(position)) ** (1 / max(len(sides), 1)))
-        mirror = {d for d in symmetric_axes(run, low, spacing) if high[d] > low[d]}
-        extent = np.where([d in mirror for d in range(3)], 2 * high, high - low)
-        dimension = int((extent > 1e-9 * extent.max()).sum())
-        if dimension < 2:
-            return plot_profiles(run, file, steps, times, wanted_us)
-        # The section contains the longest axis (a tube's own) and x, or y where x is that axis; a plane scene is its own.
-        length = int(extent.argmax())
-        across = 0 if length != 0 else 1
-        if dimension == 2:
-            across = ({0, 1, 2} - {length, int(extent.argmin())}).pop()
-        normal = 3 - length - across
-        plane = (length, across)
-        structure = structure_sections(run.folder / "fields")
+        self.spacing = spacing
+        self.mirror = {d for d in symmetric_axes(run, low, spacing) if high[d] > low[d]}
+        self.extent = np.where([d in self.mirror for d in range(3)], 2 * high, high - low)
+        self.dimension = int((self.extent > 1e-9 * self.extent.max()).sum())
+        self.length = int(self.extent.argmax()) if along is None else along
+        self.across = 0 if self.length != 0 else 1
+        if self.dimension == 2:
+            self.across = ({0, 1, 2} - {self.length, int(self.extent.argmin())}).pop()
+        self.normal = 3 - self.length - self.across
+        self.axes = (self.length, self.across)
 
-        chosen = nearest(times, [1e-6 * t for t in wanted_us])
-        aspect = float(extent[across] / extent[length])
-        columns = min(2 if aspect < 0.6 else 4, len(chosen))
-        rows = -(-len(chosen) // columns)
-        width_in = min(14, 8 * columns)
-        figure, axes = plt.subplots(rows, columns, squeeze=False,
-                                    layout="constrained",
-                                    figsize=(width_in, (width_in / columns - 1.2) * aspect * rows + 0.45 * rows + 0.6))
-        for axis in axes.flat[len(chosen):]:
+    def cut(self, position, size, values):
+        """Points of the particles that the plane meets, with the mirrored ones, and their values."""
+        inside = np.abs(position[:, self.normal]) < 0.75 * np.maximum(size, self.spacing)
+        return mirrored(position[inside][:, self.axes], [value[inside] for value in values], self.mirror, self.axes)
+
+    def panels(self, count, aspect):
+        """A figure with so many panels of that height over width."""
+        columns = min(2 if aspect < 0.6 else 4, count)
+        rows = -(-count // columns)
+        width = min(14, 8 * columns)
+        figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                    figsize=(width, (width / columns - 1.2) * aspect * rows + 0.45 * rows + 0.6))
+        for axis in axes.flat[count:]:
             axis.remove()
-        for axis, i in zip(axes.flat, chosen):
+        return figure, axes.flat[:count]
+
+    def frame(self, axis, low, high, time):
+        """Limits [mm] round low..high [m], equal axes, the time as title."""
+        margin = 1e3 * self.spacing
+        axis.set(xlim=(1e3 * low[0] - margin, 1e3 * high[0] + margin), ylim=(1e3 * low[1] - margin, 1e3 * high[1] + margin),
+                 aspect="equal", title=f"{1e6 * time:.1f} µs")
+        axis.set_facecolor("0.92")
+        axis.tick_params(labelsize=7)
+
+
+def discs(axis, points, size, values=None, **style):
+    """Particles as discs [m], coloured by values from `clim` or of one colour."""
+    width = 1e3 * np.sqrt(2) * size  # on a square lattice they then leave no gaps
+    clim = style.pop("clim", None)
+    collection = EllipseCollection(width, width, 0, units="xy", offsets=1e3 * points, transOffset=axis.transData, linewidths=0,
+                                   **style)
+    if values is not None:
+        collection.set_array(values)
+        collection.set_clim(*clim)
+    return axis.add_collection(collection)
+
+
+def plot_mid_plane(run, wanted_us):
+    path = run.folder / "fields/particles.h5part"
+    file, steps, times = read_snapshots(path)
+    with file:
+        section = Section(run, positions(file[steps[0]]), run.setting("resolution.spacing"))
+        if section.dimension < 2:
+            return plot_profiles(run, file, steps, times, wanted_us)
+        structure = structure_sections(run.folder / "fields")
+        chosen = nearest(times, [1e-6 * t for t in wanted_us])
+        figure, axes = section.panels(len(chosen), float(section.extent[section.across] / section.extent[section.length]))
+        grey = ""
+        for axis, i in zip(axes, chosen):
             step = file[steps[i]]
             if "pressure" not in step:
                 raise Missing(f"{path}: no field 'pressure'; add it to output.particle_fields of the scene")
-            position = np.stack([step[a][:] for a in AXES], axis=1).astype(float)
+            position = positions(step)
             pressure = step["pressure"][:].astype(float)
             void = step["void_fraction"][:] if "void_fraction" in step else np.zeros(len(pressure))
-            size = particle_sizes(step, spacing, len(pressure))
-            inside = np.abs(position[:, normal]) < 0.75 * np.maximum(size, spacing)
-            points, (values, empty, width) = mirrored(position[inside][:, plane],
-                                                      [1e-6 * pressure[inside], void[inside], size[inside]], mirror, plane)
+            size = particle_sizes(step, section.spacing, len(pressure), section.dimension)
+            points, (values, empty, width) = section.cut(position, size, [1e-6 * pressure, void, size])
             wet = empty <= CAVITATED
             top = max(np.quantile(values[wet], 0.995) if wet.any() else 1.0, 1.0)
-            axis.set_facecolor("0.92")
-            width = 1e3 * np.sqrt(2) * width  # discs on a square lattice then leave no gaps
-            discs = EllipseCollection(width[wet], width[wet], 0, units="xy", offsets=1e3 * points[wet],
-                                      transOffset=axis.transData, cmap="turbo", linewidths=0)
-            discs.set_array(values[wet])
-            discs.set_clim(0, top)
-            axis.add_collection(discs)
-            axis.add_collection(EllipseCollection(width[~wet], width[~wet], 0, units="xy", offsets=1e3 * points[~wet],
-                                                  transOffset=axis.transData, facecolors="white", linewidths=0))
+            shown = discs(axis, points[wet], width[wet], values[wet], clim=(0, top), cmap="turbo")
+            discs(axis, points[~wet], width[~wet], facecolors="white")
             if structure:
                 when, solid = min(structure, key=lambda entry: abs(entry[0] - times[i]))
                 if abs(when - times[i]) < 1e-6 and solid.is_file():
-                    polygons = [1e3 * p for p in structure_polygons(solid, normal, plane, mirror)]
+                    polygons = [1e3 * p for p in structure_polygons(solid, section.normal, section.axes, section.mirror)]
                     axis.add_collection(PolyCollection(polygons, facecolors="0.35", edgecolors="0.2", linewidths=0.2))
                     points = np.concatenate([points] + [1e-3 * p for p in polygons])
-            edge = 1e3 * np.array([points.min(axis=0), points.max(axis=0)])
-            margin = 1e3 * spacing
-            axis.set(xlim=(edge[0, 0] - margin, edge[1, 0] + margin), ylim=(edge[0, 1] - margin, edge[1, 1] + margin),
-                     aspect="equal", title=f"{1e6 * times[i]:.1f} µs")
-            axis.tick_params(labelsize=7)
-            figure.colorbar(discs, ax=axis, aspect=15, pad=0.01).ax.tick_params(labelsize=7)
-        figure.suptitle(f"{run.title()}: pressure [MPa] in the plane {AXES[normal]} = 0 ({AXES[length]} to the right, mm); "
-                        "white: cavitated" + ("; grey: structure" if structure else ""), fontsize=10)
+                    grey = "; grey: structure"
+            if (run.folder / "fields/solids.h5part").is_file():
+                solids, solid_steps, solid_times = read_snapshots(run.folder / "fields/solids.h5part")
+                with solids:
+                    k = int(np.abs(np.array(solid_times) - times[i]).argmin())
+                    place = positions(solids[solid_steps[k]])
+                    spacing = solid_spacing(run, solids[solid_steps[k]], len(place))
+                    place, (width,) = section.cut(place, spacing, [spacing])
+                    discs(axis, place, width, facecolors="0.35")
+                    points = np.concatenate([points, place])
+                    grey = "; grey: solids"
+            section.frame(axis, points.min(axis=0), points.max(axis=0), times[i])
+            figure.colorbar(shown, ax=axis, aspect=15, pad=0.01).ax.tick_params(labelsize=7)
+        figure.suptitle(f"{run.title()}: pressure [MPa] in the plane {AXES[section.normal]} = 0 ({AXES[section.length]} to the "
+                        f"right, mm); white: cavitated{grey}", fontsize=10)
+    return figure
+
+
+# ------------------------------------------------------------------------------------------- solids in particles
+
+# What solids are coloured by: the fields it is made of, factor and unit.
+SOLID_COLOURS = {"plastic_strain": (["plastic_strain"], 1, "-"), "von_mises": (["von_mises"], 1e-6, "MPa"),
+                 "speed": ([f"velocity_{d}" for d in range(3)], 1, "m/s")}
+
+
+def solid_spacing(run, step, count):
+    """Spacing of the lattice that each particle of a solid comes from; the finest where the snapshot does not tell whose."""
+    common = run.setting("resolution.spacing")
+    spacing = [solid.get("spacing", common) for solid in run.setting("solids", [])] or [common]
+    if None in spacing:
+        return np.full(count, Section(run, positions(step), None).spacing)
+    if "material" in step:
+        return np.array(spacing)[step["material"][:].astype(int)]
+    return np.full(count, min(spacing))
+
+
+def solid_axis(run):
+    """The axis that a picture of solids must show: that of motion, else of a tube or rod; None: whichever is longest."""
+    solids = run.setting("solids", [])
+    if run.setting("dimension", 3) < 3:
+        return None
+    speed = np.max([np.abs(np.resize(solid.get("velocity", [0.0]), 3)) for solid in solids], axis=0) if solids else np.zeros(3)
+    if speed.max() > 0:
+        return int(speed.argmax())
+    axes = [AXES.index(solid["shape"]["axis"]) for solid in solids if "axis" in solid.get("shape", {})]
+    return axes[0] if axes else None
+
+
+def plot_solids(run, wanted_us, quantity):
+    """The mid-plane of solids in particles, coloured by plastic strain, von Mises stress or speed; one scale for all times."""
+    fields, factor, unit = SOLID_COLOURS[quantity]
+    file, steps, times = read_snapshots(run.folder / "fields/solids.h5part")
+    with file:
+        if any(field not in file[steps[0]] for field in fields):
+            return None  # output.solid_fields left it out
+        chosen = nearest(times, [1e-6 * t for t in wanted_us])
+        first = positions(file[steps[0]])
+        section = Section(run, first, solid_spacing(run, file[steps[0]], len(first)).min(), solid_axis(run))
+        cuts = []
+        for i in chosen:
+            step = file[steps[i]]
+            position = positions(step)
+            value = factor * np.sqrt(sum(step[field][:].astype(float) ** 2 for field in fields))
+            size = solid_spacing(run, step, len(position))
+            cuts.append(section.cut(position, size, [value, size]))
+    everything = np.concatenate([values for _, (values, _) in cuts])
+    if not everything.any():
+        return None  # an elastic solid has no plastic strain to show
+    low = np.min([points.min(axis=0) for points, _ in cuts], axis=0)
+    high = np.max([points.max(axis=0) for points, _ in cuts], axis=0)
+    figure, axes = section.panels(len(chosen), float((high - low)[1] / (high - low)[0]))
+    for axis, i, (points, (values, size)) in zip(axes, chosen, cuts):
+        shown = discs(axis, points, size, values, clim=(0, np.quantile(everything, 0.998) or 1), cmap="turbo")
+        section.frame(axis, low, high, times[i])
+    figure.colorbar(shown, ax=list(axes), aspect=30, pad=0.01).ax.tick_params(labelsize=7)
+    figure.suptitle(f"{run.title()}: {quantity.replace('_', ' ')} [{unit}] in the plane {AXES[section.normal]} = 0 "
+                    f"({AXES[section.length]} to the right, mm)", fontsize=10)
     return figure
 
 
@@ -614,7 +718,11 @@ def main():
     if run.kind == "tube":
         jobs["wall_motion"] = lambda: plot_tube(run, reference)
     jobs["energy"] = lambda: plot_energy(run)
-    jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)
+    if run.setting("bodies") or not run.setting("solids"):
+        jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)
+    if run.setting("solids"):
+        for quantity in SOLID_COLOURS:
+            jobs[f"solids_{quantity}"] = lambda quantity=quantity: plot_solids(run, wanted, quantity)
     drawn = 0
     for name, draw in jobs.items():
         try:
@@ -622,12 +730,14 @@ def main():
         except (Missing, OSError) as error:
             print(f"plot.py: no {name}.png: {error}", file=sys.stderr)
             continue
+        drawn += 1
+        if figure is None:  # nothing in it
+            continue
         if not figure.get_constrained_layout():
             figure.tight_layout()
         figure.savefig(pictures / f"{name}.png", dpi=options.dpi)
         plt.close(figure)
         print(pictures / f"{name}.png")
-        drawn += 1
     return 0 if drawn == len(jobs) else 1
 
 
