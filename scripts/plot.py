@@ -471,7 +471,7 @@ def plot_mid_plane(run, wanted_us):
                     grey = "; grey: solids"
             section.frame(axis, points.min(axis=0), points.max(axis=0), times[i])
             figure.colorbar(shown, ax=axis, aspect=15, pad=0.01).ax.tick_params(labelsize=7)
-        figure.suptitle(f"{run.title()}: pressure [MPa] in the plane {AXES[section.normal]} = 0 ({AXES[section.length]} to the "
+        figure.suptitle(f"{run.title()}\npressure [MPa] in the plane {AXES[section.normal]} = 0 ({AXES[section.length]} to the "
                         f"right, mm); white: cavitated{grey}", fontsize=10)
     return figure
 
@@ -533,7 +533,7 @@ def plot_solids(run, wanted_us, quantity):
         shown = discs(axis, points, size, values, clim=(0, np.quantile(everything, 0.998) or 1), cmap="turbo")
         section.frame(axis, low, high, times[i])
     figure.colorbar(shown, ax=list(axes), aspect=30, pad=0.01).ax.tick_params(labelsize=7)
-    figure.suptitle(f"{run.title()}: {quantity.replace('_', ' ')} [{unit}] in the plane {AXES[section.normal]} = 0 "
+    figure.suptitle(f"{run.title()}\n{quantity.replace('_', ' ')} [{unit}] in the plane {AXES[section.normal]} = 0 "
                     f"({AXES[section.length]} to the right, mm)", fontsize=10)
     return figure
 
