@@ -553,8 +553,10 @@ class Telling(Case):
         for name, _, values in sets:
             self.assertRegex(values, r"rho0( \[kg/m\^3\])? = [\d.e+-]+", name)
         for scene in CASES.glob("*/case.toml"):
-            for used in re.findall(r'^material = "(.*?)"', scene.read_text(), re.M):
-                self.assertIn(used, names)
+            text = scene.read_text()
+            own = re.findall(r"^\[materials\.(.*?)\]", text, re.M)
+            for used in re.findall(r'^material = "(.*?)"', text, re.M):
+                self.assertIn(used, names + own)
         self.assertGreaterEqual({"water-tait", "water-steinberg", "petn", "al-5083-h116"} & set(names),
                                 {"water-tait", "water-steinberg", "petn", "al-5083-h116"})
 
