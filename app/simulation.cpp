@@ -22,7 +22,6 @@ Simulation::Simulation(const scene::Scene& scene) {
   if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
   if (structure_ && scene.fluid.start_time > 0) structure_->advance(scene.fluid.start_time, {});
   if (!scene.fluid.solids.empty()) attempt([&] { solids_ = std::make_unique<sph::Solids>(scene.fluid); });
-  if (solids_ && scene.fluid.start_time > 0) solids_->advance(scene.fluid.start_time);
   if (fluid_ && solids_) {
     if (scene.coupling.solids == coupling::SolidContact::surface)
       findings.push_back({{}, "coupling.solids = \"surface\" is not built yet; take \"particles\""});
