@@ -66,7 +66,7 @@ void Progress::line(const Simulation& simulation) {
   const double elapsed = seconds(now - start_);
   const double share = (simulation.time() - start_time_) / (end_time_ - start_time_);
   const double since = std::max(1e-9, seconds(now - last_line_));
-  std::printf("%7ld %11.4f %10.5f  %-34s %+10.2e %12.4f %9.1f %10s\n", simulation.steps(), simulation.time() * 1e6,
+  std::printf("%7ld %11.4f %10.5f  %-34.34s %+10.2e %12.4f %9.1f %10s\n", simulation.steps(), simulation.time() * 1e6,
               simulation.last_step_size() * 1e6, simulation.last_step().c_str(), simulation.energy().error(),
               simulation.maximum_pressure() * 1e-9, (simulation.steps() - last_steps_) / since,
               share > 0 ? duration_text(elapsed * (1 - share) / share).c_str() : "?");
