@@ -391,9 +391,13 @@ class Section:
         self.normal = 3 - self.length - self.across
         self.axes = (self.length, self.across)
 
-    def cut(self, position, size, values):
-        """Points of the particles that the plane meets, with the mirrored ones, and their values."""
-        inside = np.abs(position[:, self.normal]) < 0.75 * np.maximum(size, self.spacing)
+    def cut(self, position, size, values, start=None):
+        """Points of the particles that the plane meets, with the mirrored ones, and their values. Where the places at the
+        start are given, those that it met then count as long as they are near: stretched, they have moved away from it."""
+        reach = 0.75 * np.maximum(size, self.spacing)
+        inside = np.abs(position[:, self.normal]) < reach
+        if start is not None:
+            inside |= (np.abs(start[:, self.normal]) < reach) & (np.abs(position[:, self.normal]) < 4 * reach)
         return mirrored(position[inside][:, self.axes], [value[inside] for value in values], self.mirror, self.axes)
 
     def panels(self, count, aspect):
@@ -522,7 +526,9 @@ def plot_solids(run, wanted_us, quantity):
             position = positions(step)
             value = factor * np.sqrt(sum(step[field][:].astype(float) ** 2 for field in fields))
             size = solid_spacing(run, step, len(position))
-            cuts.append(section.cut(position, size, [value, size]))
+            start = np.empty_like(position)
+            start[np.argsort(step["id"][:])] = first[np.argsort(file[steps[0]]["id"][:])]
+            cuts.append(section.cut(position, size, [value, size], start))
     everything = np.concatenate([values for _, (values, _) in cuts])
     if not everything.any():
         return None  # an elastic solid has no plastic strain to show
