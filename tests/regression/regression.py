@@ -30,11 +30,13 @@ US = 1e-6
 class Case:
     """A scene with what is changed in it, and what is looked at besides the summary.
 
-    extremes: columns "probe.column" whose largest and least values count as results.
+    extremes: columns "probe.column" whose largest and least values count as results. solids: has it solids in particles, and
+    fluid: any at all?
     """
 
-    def __init__(self, scene, end_time, settings, fields=(), extremes=(), interface=INTERFACE, changes=()):
+    def __init__(self, scene, end_time, settings, fields=(), extremes=(), interface=INTERFACE, changes=(), solids=False, fluid=True):
         self.scene, self.extremes, self.fields, self.interface = scene, extremes, list(fields), interface
+        self.solids, self.fluid = solids, fluid
         self.settings = {"end_time": end_time, "output.field_times": self.fields, **settings, **dict(changes)}
 
 
@@ -45,6 +47,11 @@ def rigid(start, end_time, spacing=0.004, **more):
 def tube(scene, start, water, end_time=41 * US, spacing=0.004, **more):
     return Case(scene, end_time, {"resolution.spacing": spacing, "start.kind": start, "bodies.water.material": water},
                 **{"fields": [25e-6, 40e-6], "interface": INTERFACE_COARSE, **more})
+
+
+def solids(scene, end_time, spacing, extremes, fluid=False, **settings):
+    return Case(scene, end_time, {"resolution.spacing": spacing, "output.history_interval": 0, "output.field_interval": 0, **settings},
+                fields=[end_time], extremes=extremes, solids=True, fluid=fluid)
 
 
 def probes_at(*points):
@@ -77,6 +84,14 @@ CASES = {
                        fields=[0.0, 20e-6, 40e-6],
                        extremes=["midline_outer.displacement_x", "midline_outer.velocity_x", "midline_outer.plastic_strain",
                                  "midline_outer.temperature"]),
+    "taylor_bar_sph": solids("taylor_bar_sph", 20 * US, 0.0008, ["rear.displacement_z", "rim.displacement_x", "centre.temperature"]),
+    "taylor_bar_sph_updated": solids("taylor_bar_sph", 20 * US, 0.0008, ["rear.displacement_z", "rim.displacement_x"],
+                                     **{"solids.rod.description": "updated_lagrangian"}),
+    "al_sphere_impact": solids("al_sphere_impact", 2 * US, 0.002, ["ball_rear.velocity_z", "plate_rear.velocity_z"]),
+    "colliding_rings": solids("colliding_rings", 1e-3, 0.002, ["left_back.displacement_x", "left_front.velocity_x", "left_top.displacement_y"]),
+    "rotating_stressed_disc": solids("rotating_stressed_disc", 0.1e-3, 0.001, ["half.velocity_y", "centre.stress_xx", "near_rim.stress_yy"]),
+    "al_tube_sph": solids("al_tube_sph", 41 * US, 0.004, [], fluid=True, **{
+        "start.kind": "spherical", "solids.tube.spacing": 0.003175}),
 }
 # The same scene as octant and whole: (settings of both, of the whole only). In double precision, for a whole body's momentum.
 HALVES = {
@@ -116,12 +131,13 @@ def check_summary(case, summary):
         value = summary.get(key)
         if value is not None and not abs(value) < limit:
             found.append(f"{key} is {value:.3g}, its limit {limit:g}")
-    if summary["particle_updates"] != summary["particles"] * summary["steps"]:
+    updates = summary["particles"] * summary["steps"]
+    if summary["particle_updates"] < updates or not case.solids and summary["particle_updates"] > updates:  # solids: smaller steps
         found.append("particle_updates is not particles times steps")
     for key in ("steps", "cpu_time_s", "wall_time_s", "peak_memory_bytes"):
         if not summary[key] > 0:
             found.append(f"{key} is {summary[key]}")
-    if summary["particles"] and not summary["neighbour_interactions"] > summary["particle_updates"]:
+    if summary["particles"] and case.fluid and not summary["neighbour_interactions"] > summary["particle_updates"]:
         found.append(f"neighbour_interactions is {summary['neighbour_interactions']}")
     if not summary["passes"] or any(seconds < 0 for seconds in summary["passes"].values()):
         found.append(f"passes are {summary['passes']}")
@@ -168,7 +184,17 @@ def check_fields(case, summary, folder):
         if len(times) != len(case.fields) or any(abs(a - b) > 1e-6 * b for a, b in zip(times, case.fields)):
             found.append(f"{what}: snapshots at {times}, asked for {case.fields}")
 
-    if summary["particles"]:
+    count = summary["particles"]
+    if case.solids:
+        steps = runs.particle_steps(folder, "solids")
+        same_times("solids", [time for time, _ in steps])
+        for time, fields in steps:
+            if not all(math.isfinite(float(values.astype(float).sum())) for values in fields.values()):
+                found.append(f"solids at {time}: not every value is finite")
+            if len(set(fields["id"].tolist())) != len(fields["x"]):
+                found.append(f"solids at {time}: ids are not each particle's own")
+        count -= len(steps[0][1]["x"])
+    if count:
         steps = runs.particle_steps(folder)
         same_times("particles", [time for time, _ in steps])
         for time, fields in steps:
@@ -176,9 +202,9 @@ def check_fields(case, summary, folder):
             if not wanted <= fields.keys():
                 found.append(f"particles at {time}: no {sorted(wanted - fields.keys())}")
                 continue
-            if any(len(values) != summary["particles"] for values in fields.values()):
-                found.append(f"particles at {time}: not {summary['particles']} values each")
-            if len(set(fields["id"].tolist())) != summary["particles"]:
+            if any(len(values) != count for values in fields.values()):
+                found.append(f"particles at {time}: not {count} values each")
+            if len(set(fields["id"].tolist())) != count:
                 found.append(f"particles at {time}: ids are not each particle's own")
             if not all(math.isfinite(float(values.astype(float).sum())) for values in fields.values()):
                 found.append(f"particles at {time}: not every value is finite")

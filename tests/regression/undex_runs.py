@@ -63,10 +63,10 @@ def histories(folder):
     return {str(path.relative_to(folder)): Table(path) for path in files}
 
 
-def particle_steps(folder):
-    """[(time, {field: array})] of the particles' snapshots, in order."""
+def particle_steps(folder, name="particles"):
+    """[(time, {field: array})] of the snapshots of particles (or "solids"), in order."""
     steps = []
-    with h5py.File(pathlib.Path(folder) / "fields" / "particles.h5part", "r") as file:
+    with h5py.File(pathlib.Path(folder) / "fields" / f"{name}.h5part", "r") as file:
         for number in sorted(int(name.split("#")[1]) for name in file if name.startswith("Step#")):
             group = file[f"Step#{number}"]
             steps.append((float(group.attrs["TimeValue"]), {name: group[name][()] for name in group}))
