@@ -78,6 +78,13 @@ inline void collect(std::span<const Vec3> from, const std::array<int, 8>& cell, 
   }
 }
 
+/// Share of the points that have not failed.
+inline double intact_share(const Lanes& damage) {
+  int intact = 0;
+  for (int q = 0; q < 8; ++q) intact += damage[q] < materials::failed;
+  return 0.125 * intact;
+}
+
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
@@ -94,6 +101,7 @@ Elements::Elements(const Grid& grid, const materials::Solid& material, double li
   plastic_strain_.assign(8 * n, 0.0);
   temperature_.assign(8 * n, material.T_room);
   weight_.resize(8 * n);
+  if (materials::can_fail(material)) damage_.assign(8 * n, 0.0);
   for (auto* field : {&pressure_, &viscous_pressure_, &energy_, &volume_, &elastic_, &plastic_, &viscous_, &frequency_,
                       &frequency_bulk_, &strain_since_, &compression_rate_, &critical_step_, &cell_mass_})
     field->assign(n, 0.0);
@@ -185,15 +193,26 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   // Stress deviator at the quadrature points.
   materials::SolidPoints points;
   materials::SolidStep done;
-  Lanes specific_volume;
+  Lanes specific_volume, start_pressure;
   for (int q = 0; q < 8; ++q) {
     const std::size_t at = 8 * c + q;
     for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][at];
     points.plastic_strain[q] = plastic_strain_[at];
     points.temperature[q] = temperature_[at];
     specific_volume[q] = volume / cell_mass_[c];
+    start_pressure[q] = pressure_[c];
   }
-  materials::advance_deviator(material_, gradient, specific_volume, dt, points, done);
+  const bool can_fail = !damage_.empty();
+  double intact_before = 1.0, intact = 1.0;  // share of the points
+  if (can_fail) {
+    std::copy_n(&damage_[8 * c], 8, points.damage);
+    intact_before = intact_share(points.damage);
+  }
+  materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
+  if (can_fail) {
+    std::copy_n(points.damage, 8, &damage_[8 * c]);
+    intact = intact_share(points.damage);
+  }
   double deviatoric_work = 0.0, plastic_work = 0.0, most_strain = 0.0;
   for (int q = 0; q < 8; ++q) {
     const std::size_t at = 8 * c + q;
@@ -220,11 +239,26 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
                           quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c]);
   const double viscous_work = -0.5 * (old_viscous + viscous_pressure_[c]) * opened;
   const double other_work = energy_[c] + deviatoric_work + viscous_work;
-  for (int correction = 0; correction < 2; ++correction)
+  const auto carried = [&](double pressure) {
+    return pressure < 0.0 ? intact * materials::carried_pressure(material_, pressure, 0.0) : pressure;
+  };
+  double pressure = carried(state.pressure);
+  for (int correction = 0; correction < 2; ++correction) {
     state = materials::evaluate(material_.pressure, material_.rho0, density,
-                                (other_work - 0.5 * (old_pressure + state.pressure) * opened) / mass);
-  const double pressure_work = -0.5 * (old_pressure + state.pressure) * opened;
-  pressure_[c] = state.pressure;
+                                (other_work - 0.5 * (old_pressure + pressure) * opened) / mass);
+    pressure = carried(state.pressure);
+  }
+  if (materials::spalls(material_, state.pressure)) {
+    std::fill_n(&damage_[8 * c], 8, materials::failed);  // the deviator goes in the next step
+    intact = pressure = 0.0;
+  }
+  const double pressure_work = -0.5 * (old_pressure + pressure) * opened;
+  if (intact < intact_before && old_pressure < 0.0) {
+    // What the failed points had stored in tension, and what the old pressure added, is spent (to first order in strain).
+    const double stored = 0.5 * old_pressure * old_pressure / (intact_before * density * state.bulk_sound * state.bulk_sound);
+    plastic_work += (1.0 - intact / intact_before) * (stored * volume_[c] - 0.5 * old_pressure * opened);
+  }
+  pressure_[c] = pressure;
   energy_[c] = other_work + pressure_work;
   volume_[c] = volume;
   elastic_[c] += deviatoric_work - plastic_work + pressure_work;
@@ -237,7 +271,7 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   if (strain_since_[c] > frequency_strain) find_frequency(c, x, {bulk_modulus, 2.0 * shear}, 20);
   set_critical_step(c, sound, bulk_modulus);
 
-  const double total_pressure = state.pressure + viscous_pressure_[c];
+  const double total_pressure = pressure + viscous_pressure_[c];
   for (int k = 0; k < 3; ++k)
     for (int q = 0; q < 8; ++q) points.deviator[k][q] -= total_pressure;
   double force[3][8];
@@ -371,7 +405,7 @@ Mat3 Elements::stress(std::size_t cell, int q) const {
 std::size_t Elements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& component : deviator_) values += component.size();
-  for (const auto* field : {&plastic_strain_, &temperature_, &weight_, &pressure_, &viscous_pressure_, &energy_,
+  for (const auto* field : {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &viscous_pressure_, &energy_,
                             &volume_, &elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,
                             &critical_step_, &mode_, &cell_mass_, &corner_mass_, &nodal_mass_, &corner_force_})
     values += field->size();

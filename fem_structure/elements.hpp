@@ -4,6 +4,11 @@
 // step, radial return at each quadrature point. Volumetric part: one pressure per cell from the cell's mean density
 // (Nagtegaal, Parks, Rice 1974), so that plastic flow does not lock. The nodal force of a cell is the exact derivative
 // of its power: f_I = sum_q w_q S_q grad N_I - p sum_q w_q grad N_I. deal.II is not seen here.
+//
+// Where the material can fail, each quadrature point does so by itself and loses its deviator. The cell's pressure is the
+// mean over its points of what each carries of the one pressure: in tension the share of the points that have not failed.
+// So a cell breaks by eighths, as its points do; "no tension after the first" would let one corner open the whole cell, "none
+// after the last" would let seven broken eighths hang on one. Spall is a matter of the pressure, hence of the whole cell.
 #pragma once
 
 #include <array>
@@ -46,6 +51,8 @@ class Elements {
   double pressure(std::size_t cell) const { return pressure_[cell]; }
   double plastic_strain(std::size_t cell, int q) const { return plastic_strain_[8 * cell + q]; }
   double temperature(std::size_t cell, int q) const { return temperature_[8 * cell + q]; }
+  /// Share of the fracture strain spent, 1: failed; 0 where the material cannot fail.
+  double damage(std::size_t cell, int q) const { return damage_.empty() ? 0.0 : damage_[8 * cell + q]; }
   double volume(std::size_t cell) const { return volume_[cell]; }
   std::size_t memory_bytes() const;
 
@@ -75,6 +82,7 @@ class Elements {
   // State, per quadrature point.
   std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
   std::vector<double> plastic_strain_, temperature_, weight_;
+  std::vector<double> damage_;  ///< empty where the material cannot fail
   // State, per cell.
   std::vector<double> pressure_, viscous_pressure_, energy_, volume_;
   std::vector<double> elastic_, plastic_, viscous_;

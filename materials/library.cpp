@@ -13,6 +13,13 @@ namespace {
 constexpr double shear_from(double E, double nu) { return E / (2.0 * (1.0 + nu)); }
 constexpr double bulk_from(double E, double nu) { return E / (3.0 * (1.0 - 2.0 * nu)); }
 
+template <class Set>
+std::optional<Set> find(const std::vector<Set>& sets, std::string_view name) {
+  for (const Set& set : sets)
+    if (set.name == name) return set;
+  return std::nullopt;
+}
+
 Fluid tait(const char* name, Cavitation cavitation, const char* source) {
   TaitWater::Parameters p;
   p.cavitation = cavitation;
@@ -146,6 +153,12 @@ std::vector<Solid> make_solids() {
       "alone, not from the tube",
       2700.0, G_5xxx, linear_5xxx,
       JohnsonCook{.A = 207e6, .B = 233e6, .n = 0.312, .C = 0.001, .m = 1.0, .T_melt = 893.0}, 900.0));
+  sets.push_back(solid(
+      "al-5086-za",
+      "Zerilli-Armstrong constants, shear modulus and Mie-Grueneisen constants of 5086 as read in a public code for this very "
+      "tube; heat capacity is a handbook value, recalled, not read",
+      2700.0, 26.4e9, MieGruneisenPressure{.C = 5240.0, .S = 1.49, .Gamma = 1.97},
+      ZerilliArmstrong{.C0 = 234e6, .C2 = 1283e6, .C3 = 0.00371, .C4 = 0.000153}, 900.0));
   sets.push_back(
       solid("armco-iron", "Johnson-Cook constants, moduli and heat capacity as read in public data files",
             7890.0, 80e9, LinearPressure{164e9},
@@ -155,6 +168,35 @@ std::vector<Solid> make_solids() {
             "Johnson and Cook 1983, in part as read in public data files, in part recalled, not read", 8960.0,
             46e9, LinearPressure{129e9},
             JohnsonCook{.A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .T_melt = 1356.0}, 383.0));
+  sets.push_back(solid("steel-4340",
+                       "Johnson and Cook 1983, 4340 steel of Rockwell C-30; E 200 GPa, nu 0.29; all recalled, not read",
+                       7830.0, shear_from(200e9, 0.29), LinearPressure{bulk_from(200e9, 0.29)},
+                       JohnsonCook{.A = 792e6, .B = 510e6, .n = 0.26, .C = 0.014, .m = 1.03, .T_melt = 1793.0}, 477.0));
+
+  const auto add_zerilli_armstrong = [&](const char* of, const ZerilliArmstrong& flow, const char* source) {
+    Solid changed = *find(sets, of);
+    changed.name += "-za";
+    changed.source = std::string(source) + ". The rest as " + of;
+    changed.flow = flow;
+    sets.push_back(changed);
+  };
+  add_zerilli_armstrong("armco-iron",
+                        {.C0 = 65e6, .C1 = 1033e6, .C3 = 0.00698, .C4 = 0.000415, .C5 = 266e6, .n = 0.289},
+                        "Zerilli and Armstrong 1987, Armco iron (body-centred), recalled, not read");
+  add_zerilli_armstrong("copper-ofhc", {.C0 = 65e6, .C2 = 890e6, .C3 = 0.0028, .C4 = 0.000115},
+                        "Zerilli and Armstrong 1987, OFHC copper (face-centred), recalled, not read");
+
+  const auto add_damaged = [&](const char* of, double D1, double D2, double D3, double D4, double D5) {
+    Solid changed = *find(sets, of);
+    changed.name += "-damage";
+    changed.source = std::string("As ") + of + " (" + changed.source +
+                     "), with the damage constants of Johnson and Cook 1985, recalled, not read";
+    changed.damage = {D1, D2, D3, D4, D5, std::get<JohnsonCook>(changed.flow).T_melt};
+    sets.push_back(changed);
+  };
+  add_damaged("armco-iron", -2.20, 5.43, -0.47, 0.016, 0.63);
+  add_damaged("copper-ofhc", 0.54, 4.89, -3.03, 0.014, 1.12);
+  add_damaged("steel-4340", 0.05, 3.44, -2.12, 0.002, 0.61);
   return sets;
 }
 
@@ -168,13 +210,6 @@ const std::vector<Fluid>& fluids() {
 const std::vector<Solid>& solids() {
   static const std::vector<Solid> sets = make_solids();
   return sets;
-}
-
-template <class Set>
-std::optional<Set> find(const std::vector<Set>& sets, std::string_view name) {
-  for (const Set& set : sets)
-    if (set.name == name) return set;
-  return std::nullopt;
 }
 
 template <class Set>
@@ -235,11 +270,31 @@ Table rows(const Elastic&) { return {}; }
 
 Table rows(const LinearHardening& law) { return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}}; }
 
+Table rows(const PowerHardening& law) { return {{"A [Pa]", law.A}, {"B [Pa]", law.B}, {"n [-]", law.n}}; }
+
+Table rows(const CowperSymonds& law) {
+  return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}, {"D [1/s]", law.D}, {"q [-]", law.q}};
+}
+
+Table rows(const ZerilliArmstrong& law) {
+  return {{"za_C0 [Pa]", law.C0},  {"za_C1 [Pa]", law.C1}, {"za_C2 [Pa]", law.C2}, {"za_C3 [1/K]", law.C3},
+          {"za_C4 [1/K]", law.C4}, {"za_C5 [Pa]", law.C5}, {"za_n [-]", law.n},    {"rate0 [1/s]", law.rate0}};
+}
+
 // Names start with jc: A, B and C stand beside a pressure law's C.
 Table rows(const JohnsonCook& law) {
   return {{"jc_A [Pa]", law.A},       {"jc_B [Pa]", law.B},         {"jc_n [-]", law.n},
           {"jc_C [-]", law.C},        {"jc_m [-]", law.m},          {"T_melt [K]", law.T_melt},
           {"rate0 [1/s]", law.rate0}, {"jc_T_room [K]", law.T_room}};
+}
+
+Table rows(const Spall& spall) { return {{"spall_strength [Pa]", spall.strength}}; }
+
+// Names start with damage: a flow stress has a melting point of its own.
+Table rows(const JohnsonCookDamage& law) {
+  return {{"damage_D1 [-]", law.D1},         {"damage_D2 [-]", law.D2},       {"damage_D3 [-]", law.D3},
+          {"damage_D4 [-]", law.D4},         {"damage_D5 [-]", law.D5},       {"damage_T_melt [K]", law.T_melt},
+          {"damage_rate0 [1/s]", law.rate0}, {"damage_T_room [K]", law.T_room}};
 }
 
 }  // namespace
@@ -260,6 +315,8 @@ std::vector<std::pair<std::string, double>> parameters(const Solid& solid) {
   append(table, {{"heat_capacity [J/kg/K]", solid.heat_capacity},
                  {"taylor_quinney [-]", solid.taylor_quinney},
                  {"T_room [K]", solid.T_room}});
+  if (solid.spall) append(table, rows(*solid.spall));
+  if (solid.damage) append(table, rows(*solid.damage));
   return table;
 }
 

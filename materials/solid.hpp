@@ -1,12 +1,15 @@
-// Constitutive law of solids: pressure law, flow stress and one radial return, shared by every
-// discretisation. Chen, Peng, Lien, Zhao 2019, doi 10.1007/s40571-019-00230-7, eqs 14-23. Cauchy stress,
-// positive in tension; pressure positive in compression; SI units. Everything is compiled once, in solid.cpp,
-// and not inlined: two discretisations that ask the same question must get the same bits, whatever compiler
-// flags their own loops use. Where a loop knows its law, the overloads for the single laws save the dispatch.
+// A solid: pressure law, flow stress, failure. Shared by every discretisation. Chen, Peng, Lien, Zhao 2019, doi
+// 10.1007/s40571-019-00230-7, eqs 14-23. Cauchy stress, positive in tension; pressure positive in compression; SI units.
+// Compiled once, in solid.cpp, and not inlined, as the flow stress. Where a loop knows its pressure law, the overloads for
+// the single laws save the dispatch.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
+
+#include "materials/failure.hpp"
+#include "materials/flow_stress.hpp"
 
 namespace undex::materials {
 
@@ -23,22 +26,6 @@ struct MieGruneisenPressure {
 };
 using SolidPressure = std::variant<LinearPressure, MieGruneisenPressure>;
 
-struct Elastic {};  ///< never yields
-/// sigma_Y = Y0 + H eps_p, H >= 0; perfectly plastic with H = 0.
-struct LinearHardening {
-  double Y0, H;  ///< [Pa]
-};
-/// (A + B eps_p^n)(1 + C ln(rate/rate0))(1 - T*^m) (eqs 16, 17); rate clamped at rate0, T* to [0, 1]. B, n, C
-/// >= 0.
-struct JohnsonCook {
-  double A, B;            ///< [Pa]
-  double n, C, m;         ///< [-]; m is the paper's k
-  double T_melt;          ///< [K]
-  double rate0 = 1.0;     ///< [1/s]
-  double T_room = 293.0;  ///< [K]
-};
-using FlowStress = std::variant<Elastic, LinearHardening, JohnsonCook>;
-
 struct Solid {
   std::string name, source;
   double rho0;           ///< [kg/m^3]
@@ -48,17 +35,9 @@ struct Solid {
   double heat_capacity = 900.0;  ///< [J/kg/K]
   double taylor_quinney = 0.9;   ///< share of the plastic work that heats
   double T_room = 293.0;         ///< temperature at the start [K]
+  std::optional<Spall> spall;               ///< without it any tension is carried
+  std::optional<JohnsonCookDamage> damage;  ///< without it plastic strain does not break
 };
-
-/// Flow stress [Pa] at plastic strain [-], plastic strain rate [1/s] and temperature [K]; infinite for
-/// Elastic.
-double flow_stress(const FlowStress& law, double plastic_strain, double rate, double temperature);
-double flow_stress(const LinearHardening& law, double plastic_strain, double rate, double temperature);
-double flow_stress(const JohnsonCook& law, double plastic_strain, double rate, double temperature);
-/// Its derivative with respect to plastic strain [Pa] at fixed rate and temperature; 0 for Elastic. Where n <
-/// 1 the slope of Johnson-Cook's law is infinite at zero strain: below a strain of 1e-6 its value at 1e-6 is
-/// returned.
-double hardening(const FlowStress& law, double plastic_strain, double rate, double temperature);
 
 /// p [Pa] and bulk sound speed [m/s].
 struct SolidPressureSound {
@@ -71,23 +50,28 @@ SolidPressureSound evaluate(const SolidPressure& law, double rho0, double rho, d
 SolidPressureSound evaluate(const LinearPressure& law, double rho0, double rho, double energy);
 SolidPressureSound evaluate(const MieGruneisenPressure& law, double rho0, double rho, double energy);
 
-/// Result of a radial return: S = scale * S_trial.
-struct PlasticStep {
-  double scale;           ///< in [0, 1]; 0 only where the flow stress is (molten)
-  double plastic_strain;  ///< increment of equivalent plastic strain, >= 0
-  double work;  ///< plastic work per volume [J/m^3]: flow stress at the end of the step times the increment
-};
-/// Radial return of a trial von Mises stress `trial` [Pa] over a step dt [s] (eqs 14, 15, 20), consistent
-/// with the flow stress at the END of the step: trial - 3 G d_eps = sigma_Y(eps_p + d_eps, d_eps/dt, T),
-/// solved to round-off. (Eq. 20 divides by 3G the excess over a flow stress known beforehand: the same thing
-/// for perfect plasticity.) Temperature [K] is held over the step. dt must be positive where the law depends
-/// on the rate.
-PlasticStep radial_return(const Solid& solid, double trial, double plastic_strain, double temperature,
-                          double dt);
-PlasticStep radial_return(const LinearHardening& law, double shear_modulus, double trial,
-                          double plastic_strain);
-PlasticStep radial_return(const JohnsonCook& law, double shear_modulus, double trial, double plastic_strain,
-                          double temperature, double dt);
+/// A point that has failed has damage 1 [-]; below that its damage counts the share of the fracture strain spent.
+inline constexpr double failed = 1.0;
+/// Can a point of this solid fail? Then its damage has to be kept.
+inline bool can_fail(const Solid& solid) {
+  return solid.damage || (solid.spall && solid.spall->mode == Spall::Mode::fail);
+}
+/// Does a point fail in which the pressure law gives `pressure` [Pa]? Then set its damage to `failed`.
+inline bool spalls(const Solid& solid, double pressure) {
+  return solid.spall && solid.spall->mode == Spall::Mode::fail && pressure <= -solid.spall->strength;
+}
+/// What a point of that damage carries of the `pressure` [Pa] that the pressure law (`evaluate`) gives: all compression,
+/// tension up to the spall strength, none once it has failed.
+inline double carried_pressure(const Solid& solid, double pressure, double damage) {
+  if (pressure >= 0.0) return pressure;
+  if (damage >= failed) return 0.0;
+  return solid.spall && pressure < -solid.spall->strength ? -solid.spall->strength : pressure;
+}
+
+/// Radial return with the solid's law and shear modulus.
+inline PlasticStep radial_return(const Solid& solid, double trial, double plastic_strain, double temperature, double dt) {
+  return radial_return(solid.flow, solid.shear_modulus, trial, plastic_strain, temperature, dt);
+}
 
 /// Bulk modulus at rest [Pa].
 double bulk_modulus(const Solid& solid);

@@ -1,5 +1,6 @@
 #include "materials/stress_update.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace undex::materials {
@@ -57,29 +58,60 @@ inline void rotate_and_strain(double shear, const EightPoints (&gradient)[3][3],
   }
 }
 
-}  // namespace
+/// Elastic energy per volume [J/m^3] in the deviator at point q.
+inline double stored(const Solid& solid, const EightPoints (&s)[6], int q) {
+  return contracted(s, s, q) / (4.0 * solid.shear_modulus);
+}
 
-void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume, double dt,
-                      SolidPoints& points, SolidStep& step) {
-  EightPoints strain[6];
-  rotate_and_strain(solid.shear_modulus, gradient, points, step, strain);
+/// Counts the damage of a step that ends at von Mises stress `mises` [Pa].
+inline void add_damage(const JohnsonCookDamage& law, double pressure, double mises, double plastic_strain, double dt,
+                       double temperature, double& damage) {
+  const double triaxiality = -pressure / std::max(mises, 1.0);  // one pascal: molten metal has no stress to divide by
+  damage += plastic_strain / fracture_strain(law, triaxiality, plastic_strain / dt, temperature);
+  damage = std::min(damage, failed);
+}
+
+/// The step at all points. `breaks`: the solid can fail; the others do not pay for it.
+template <bool breaks>
+void advance(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
+             const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step) {
+  EightPoints strain[6], stored_before;
   EightPoints(&s)[6] = points.deviator;
+  if constexpr (breaks)
+    for (int q = 0; q < N; ++q) stored_before[q] = stored(solid, s, q);
+  rotate_and_strain(solid.shear_modulus, gradient, points, step, strain);
   const double heating = solid.taylor_quinney / solid.heat_capacity;
   const bool yields = !std::holds_alternative<Elastic>(solid.flow);
   for (int q = 0; q < N; ++q) {
     step.plastic_work[q] = 0.0;
-    if (yields) {
+    if (yields && !(breaks && points.damage[q] >= failed)) {
       const double trial = std::sqrt(1.5 * contracted(s, s, q));
       const PlasticStep plastic = radial_return(solid, trial, points.plastic_strain[q], points.temperature[q], dt);
       if (plastic.plastic_strain > 0.0) {
         for (int k = 0; k < 6; ++k) s[k][q] *= plastic.scale;
+        if (breaks && solid.damage)
+          add_damage(*solid.damage, pressure[q], plastic.scale * trial, plastic.plastic_strain, dt, points.temperature[q],
+                     points.damage[q]);
         points.plastic_strain[q] += plastic.plastic_strain;
         points.temperature[q] += heating * specific_volume[q] * plastic.work;
         step.plastic_work[q] = plastic.work;
       }
     }
+    if (breaks && points.damage[q] >= failed) {
+      for (int k = 0; k < 6; ++k) s[k][q] = 0.0;
+      // All that was stored is spent, and what the old stress, still there for half of the step, added.
+      step.plastic_work[q] = stored_before[q] + 0.5 * step.old_work[q];
+    }
     step.new_work[q] = contracted(s, strain, q);
   }
+}
+
+}  // namespace
+
+void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
+                      const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step) {
+  if (can_fail(solid)) advance<true>(solid, gradient, specific_volume, pressure, dt, points, step);
+  else advance<false>(solid, gradient, specific_volume, pressure, dt, points, step);
 }
 
 }  // namespace undex::materials

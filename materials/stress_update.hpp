@@ -17,6 +17,7 @@ struct SolidPoints {
   EightPoints deviator[6];
   EightPoints plastic_strain;  ///< [-]
   EightPoints temperature;     ///< [K]
+  EightPoints damage;          ///< [-]; failed at 1. Neither read nor written where the solid cannot fail (`can_fail`)
 };
 
 /// What a step did at the eight points.
@@ -30,8 +31,10 @@ struct SolidStep {
 /// Takes eight points over a step dt [s] in which the displacement has changed by the gradient d u_i/d x_j =
 /// gradient[i][j] with respect to the positions at the middle of the step. Half of the elastic increment comes before the
 /// step's rotation and half after it. `specific_volume` [m^3/kg] turns plastic work into heat. Traces of gradient leave the
-/// deviator alone: pressure is the caller's (`evaluate`).
-void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume, double dt,
-                      SolidPoints& points, SolidStep& step);
+/// deviator alone: pressure is the caller's (`evaluate`, then `spalls` and `carried_pressure` where the solid can fail).
+/// `pressure` [Pa] is that at the start of the step; only Johnson-Cook damage reads it. A failed point, from the step in
+/// which its damage reaches 1 on, has no deviator; the elastic energy which that held counts as plastic work.
+void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
+                      const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step);
 
 }  // namespace undex::materials

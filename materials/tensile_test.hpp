@@ -2,6 +2,8 @@
 // SI units.
 #pragma once
 
+#include "materials/flow_stress.hpp"
+
 namespace undex::materials {
 
 /// Engineering values of a tensile test.
@@ -10,11 +12,6 @@ struct TensileTest {
   double ultimate;            ///< largest load over initial area [Pa]
   double uniform_elongation;  ///< engineering strain at the largest load [-]. Handbooks give the elongation
                               ///< at break, which is larger: to use it puts the necking point too far out
-};
-
-/// sigma = A + B eps^n, true stress [Pa] over true plastic strain.
-struct PowerHardening {
-  double A, B, n;
 };
 
 /// The curve that starts at `yield`, passes through true stress `ultimate` (1 + elongation) at true strain

@@ -28,8 +28,9 @@ TEST(Library, HasEverySetByName) {
   EXPECT_EQ(std::set<std::string>(solids.begin(), solids.end()),
             (std::set<std::string>{"al-impact-table2", "al-2024-t351", "al-6061-t6", "al-5083-h116",
                                    "al-5083-h116-m0859", "al-5086-o", "al-5086-h116", "armco-iron",
-                                   "copper-ofhc"}));
-  EXPECT_EQ(solids.size(), 9u);
+                                   "copper-ofhc", "al-5086-za", "steel-4340", "armco-iron-za", "copper-ofhc-za",
+                                   "armco-iron-damage", "copper-ofhc-damage", "steel-4340-damage"}));
+  EXPECT_EQ(solids.size(), 16u);
 }
 
 TEST(Library, UnknownNamesAreNothing) {
@@ -91,7 +92,7 @@ TEST(Library, SolidsAreUsable) {
     EXPECT_EQ(s.taylor_quinney, 0.9) << name;
     const double yield = flow_stress(s.flow, 0.0, 1.0, s.T_room);
     EXPECT_GT(yield, 50e6) << name;
-    EXPECT_LT(yield, 600e6) << name;
+    EXPECT_LT(yield, 800e6) << name;
     if (const auto* jc = std::get_if<JohnsonCook>(&s.flow)) {
       EXPECT_EQ(jc->T_room, s.T_room) << name;
     }
@@ -99,7 +100,8 @@ TEST(Library, SolidsAreUsable) {
 }
 
 TEST(Library, RecalledValuesSaySo) {
-  for (const char* name : {"al-2024-t351", "al-5083-h116", "al-5083-h116-m0859", "al-5086-o", "al-5086-h116"})
+  for (const char* name : {"al-2024-t351", "al-5083-h116", "al-5083-h116-m0859", "al-5086-o", "al-5086-h116", "steel-4340",
+                           "armco-iron-za", "copper-ofhc-za", "armco-iron-damage", "copper-ofhc-damage", "steel-4340-damage"})
     EXPECT_NE(find_solid(name)->source.find("recalled, not read"), std::string::npos) << name;
   EXPECT_NE(find_fluid("water-steinberg")->source.find("recalled, not read"), std::string::npos);
 }
@@ -131,6 +133,32 @@ TEST(Library, KnownNumbers) {
   EXPECT_EQ(std::get<LinearHardening>(find_solid("al-impact-table2")->flow).H, 0.0);
   EXPECT_EQ(value(parameters(find_solid("al-impact-table2").value()), "C [m/s]"), 5300.0);
   EXPECT_EQ(value(parameters(find_solid("copper-ofhc").value()), "jc_A [Pa]"), 90e6);
+}
+
+TEST(Library, ZerilliArmstrongOf5086IsTheFormulaOfItsSource) {
+  const Solid tube = find_solid("al-5086-za").value();
+  const double strain = 0.07, rate = 2500.0, T = 350.0;
+  EXPECT_NEAR(flow_stress(tube.flow, strain, rate, T),
+              234e6 + 1283e6 * std::sqrt(strain) * std::exp(-(0.00371 - 0.000153 * std::log(rate)) * T), 1e-3);
+  EXPECT_EQ(tube.shear_modulus, 26.4e9);
+}
+
+// Failure is only in sets whose name says so, and changes nothing else of them.
+TEST(Library, DamageIsAnOption) {
+  for (const std::string& name : solid_names()) {
+    const Solid s = find_solid(name).value();
+    const auto at = name.find("-damage");
+    EXPECT_EQ(can_fail(s), at != std::string::npos) << name;
+    EXPECT_FALSE(s.spall.has_value()) << name;
+    if (at == std::string::npos) continue;
+    const Solid base = find_solid(name.substr(0, at)).value();
+    const auto rows = parameters(base), damaged = parameters(s);
+    EXPECT_TRUE(std::equal(rows.begin(), rows.end(), damaged.begin())) << name;
+    EXPECT_EQ(damaged.size(), rows.size() + 8) << name;
+    EXPECT_EQ(s.damage->T_melt, std::get<JohnsonCook>(s.flow).T_melt) << name;
+    EXPECT_GT(fracture_strain(*s.damage, 1e3, 1.0, 293.0), 0.04) << name;
+  }
+  EXPECT_NEAR(fracture_strain(*find_solid("copper-ofhc-damage")->damage, 1.0 / 3.0, 1.0, 293.0), 2.3211, 1e-4);
 }
 
 TEST(Library, HardeningOf5086FollowsFromItsTensileTests) {
