@@ -1,6 +1,8 @@
 // The parameters of every material law under their names in a scene file: one list, for reading and for writing.
 #pragma once
 
+#include <string_view>
+
 #include "materials/library.hpp"
 
 namespace undex::scene {
@@ -50,6 +52,34 @@ void each_field(materials::JohnsonCook& p, F&& field) {
   field("A", p.A), field("B", p.B), field("n", p.n), field("C", p.C), field("m", p.m), field("T_melt", p.T_melt);
   field("rate0", p.rate0), field("T_room", p.T_room);
 }
+template <class F>
+void each_field(materials::PowerHardening& p, F&& field) {
+  field("A", p.A), field("B", p.B), field("n", p.n);
+}
+template <class F>
+void each_field(materials::CowperSymonds& p, F&& field) {
+  field("Y0", p.Y0), field("H", p.H), field("D", p.D), field("q", p.q);
+}
+template <class F>
+void each_field(materials::ZerilliArmstrong& p, F&& field) {
+  field("C0", p.C0), field("C1", p.C1), field("C2", p.C2), field("C3", p.C3), field("C4", p.C4), field("C5", p.C5);
+  field("n", p.n), field("rate0", p.rate0);
+}
+template <class F>
+void each_field(materials::JohnsonCookDamage& p, F&& field) {
+  field("D1", p.D1), field("D2", p.D2), field("D3", p.D3), field("D4", p.D4), field("D5", p.D5);
+  field("T_melt", p.T_melt), field("rate0", p.rate0), field("T_room", p.T_room);
+}
+
+/// Has the parameter a value where a scene does not name it? The room temperature and the reference rate have their usual
+/// ones everywhere; terms that a law need not have are zero.
+template <class Law>
+bool has_default(const Law&, std::string_view key) {
+  return key == "rate0" || key == "T_room";
+}
+inline bool has_default(const materials::ZerilliArmstrong&, std::string_view key) {
+  return key == "rate0" || key == "C1" || key == "C2" || key == "C5" || key == "n";
+}
 
 inline const char* law_name(const materials::TaitWater&) { return "tait"; }
 inline const char* law_name(const materials::BarotropicGas&) { return "barotropic_gas"; }
@@ -61,6 +91,13 @@ inline const char* law_name(const materials::MieGruneisenPressure&) { return "mi
 inline const char* law_name(const materials::Elastic&) { return "elastic"; }
 inline const char* law_name(const materials::LinearHardening&) { return "linear_hardening"; }
 inline const char* law_name(const materials::JohnsonCook&) { return "johnson_cook"; }
+inline const char* law_name(const materials::PowerHardening&) { return "power_hardening"; }
+inline const char* law_name(const materials::CowperSymonds&) { return "cowper_symonds"; }
+inline const char* law_name(const materials::ZerilliArmstrong&) { return "zerilli_armstrong"; }
+
+inline const char* spall_mode_name(materials::Spall::Mode mode) {
+  return mode == materials::Spall::Mode::fail ? "fail" : "cutoff";
+}
 
 inline const char* cavitation_name(materials::Cavitation cavitation) {
   switch (cavitation) {

@@ -1,10 +1,12 @@
 // Materials: a name of the scene's [materials] or of the library, or a table {law = ..., parameters} or
 // {base = "name", changed parameters}.
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "scene/draft.hpp"
 #include "scene/material_fields.hpp"
+#include "scene/numbers.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/table_reader.hpp"
 
@@ -43,9 +45,8 @@ void read_fields(const TableReader& table, Parameters& parameters, bool all_need
                                                  {"cutoff", Cavitation::cutoff},
                                                  {"schmidt", Cavitation::schmidt}});
     } else {
-      // the room temperature and the reference rate have their usual values everywhere
-      const bool needed = all_needed && std::string(key) != "rate0" && std::string(key) != "T_room";
-      if (needed && !table.need(key, "a law without 'base' needs all its parameters")) return;
+      if (all_needed && !has_default(parameters, key) &&
+          !table.need(key, "a law without 'base' needs all its parameters")) return;
       table.read(key, value);
     }
   });
@@ -181,6 +182,10 @@ void read_law(const TableReader& solid, const char* key, const char* section_pre
   const std::string path = solid.path_of(key);
   const std::vector<std::string> names{law_name(Laws{})...};
   bool fresh = !solid.has("base");  // then all parameters have to be there
+  if (fresh && !node->find("law")) {
+    report.add(*node, path + ".law is missing; one of " + listed(names));
+    return;
+  }
   if (const Node* law = node->find("law")) {
     if (law->kind != Node::Kind::text || std::find(names.begin(), names.end(), law->text) == names.end()) {
       report.add(*law, path + ".law must be one of " + listed(names) + ", not " + law->described() +
@@ -202,9 +207,61 @@ void read_law(const TableReader& solid, const char* key, const char* section_pre
       into);
 }
 
+void read_spall(const TableReader& solid, Solid& into) {
+  const Node* node = solid.table("spall");
+  if (!node) return;
+  const TableReader table(*node, solid.path_of("spall"), "spall", solid.dimension(), solid.report());
+  if (!into.spall) {
+    into.spall.emplace();
+    table.need("strength", "give the tension in Pa at which the material parts, e.g. strength = 1e9");
+  }
+  table.read("strength", into.spall->strength);
+  table.read_choice<Spall::Mode>("mode", into.spall->mode, {{"cutoff", Spall::Mode::cutoff}, {"fail", Spall::Mode::fail}});
+}
+
+/// Melting point, reference rate and room temperature are those of a Johnson-Cook flow stress unless named here.
+void read_damage(const TableReader& solid, Solid& into) {
+  const Node* node = solid.table("damage");
+  if (!node) return;
+  const TableReader table(*node, solid.path_of("damage"), "damage", solid.dimension(), solid.report());
+  if (!into.damage) {
+    into.damage.emplace();
+    for (const char* key : {"D1", "D2", "D3", "D4", "D5"})
+      table.need(key, "Johnson and Cook's fracture strain needs D1 to D5; write 0 for a term that it does not have");
+    if (const auto* flow = std::get_if<JohnsonCook>(&into.flow)) {
+      into.damage->T_melt = flow->T_melt;
+      into.damage->rate0 = flow->rate0;
+      into.damage->T_room = flow->T_room;
+    } else {
+      table.need("T_melt", "give the melting temperature in K: only a flow stress of law \"johnson_cook\" brings one");
+    }
+  }
+  read_fields(table, *into.damage, false);
+}
+
+/// What is in range by itself but not together.
+void check_together(const TableReader& solid, const Solid& of) {
+  const auto check_melting = [&](const char* key, double T_melt, double T_room) {
+    if (T_melt > T_room) return;
+    solid.complain(key, solid.path_of(key) + ".T_melt = " + shortest(T_melt) + " [K] must be greater than its T_room = " +
+                            shortest(T_room) + " [K]");
+  };
+  if (const auto* flow = std::get_if<JohnsonCook>(&of.flow)) check_melting("flow", flow->T_melt, flow->T_room);
+  if (const auto* flow = std::get_if<ZerilliArmstrong>(&of.flow); flow && flow->C0 + flow->C1 <= 0)
+    solid.complain("flow", solid.path_of("flow") + ".C0 and C1 are both 0: nothing would resist the first strain; one of "
+                                                   "them must be greater than 0");
+  if (!of.damage) return;
+  check_melting("damage", of.damage->T_melt, of.damage->T_room);
+  const double least = of.damage->D1 + of.damage->D2 * std::exp(1.5 * of.damage->D3);
+  if (least <= 0)
+    solid.complain("damage", solid.path_of("damage") + ": D1 + D2 exp(1.5 D3) = " + shortest(least) +
+                                 " must be greater than 0: it is the fracture strain in the highest tension that counts");
+}
+
 /// Does an own material describe a solid? Told by its keys or by what it is based on.
 bool looks_solid(const Node& node, const Draft& draft, int depth) {
-  for (const char* key : {"flow", "shear_modulus", "young_modulus", "pressure", "heat_capacity", "taylor_quinney"})
+  for (const char* key : {"flow", "shear_modulus", "young_modulus", "pressure", "heat_capacity", "taylor_quinney", "spall",
+                          "damage"})
     if (node.find(key)) return true;
   const Node* base = node.kind == Node::Kind::text ? &node : node.find("base");
   if (!base || base->kind != Node::Kind::text || depth > deepest_base) return false;
@@ -255,17 +312,14 @@ bool read_solid_at(const Node& node, const std::string& path, Draft& draft, int 
   } else {
     table.read("shear_modulus", into.shear_modulus);
   }
-  if (const Node* pressure = table.find("pressure"); pressure && pressure->kind == Node::Kind::table && !table.has("base"))
-    if (!pressure->find("law"))
-      report.add(*pressure, path + ".pressure.law is missing; one of linear, mie_gruneisen");
-  if (const Node* flow = table.find("flow"); flow && flow->kind == Node::Kind::table && !table.has("base"))
-    if (!flow->find("law"))
-      report.add(*flow, path + ".flow.law is missing; one of elastic, linear_hardening, johnson_cook");
   read_law(table, "pressure", "pressure.", into.pressure, std::type_identity<SolidPressure>{});
   read_law(table, "flow", "flow.", into.flow, std::type_identity<FlowStress>{});
+  read_spall(table, into);
+  read_damage(table, into);
   table.read("heat_capacity", into.heat_capacity);
   table.read("taylor_quinney", into.taylor_quinney);
   table.read("T_room", into.T_room);
+  if (report.size() == before) check_together(table, into);
   return report.size() == before;
 }
 

@@ -168,6 +168,15 @@ void put_solid_material(Writer& writer, const std::string& header, const Solid& 
   };
   std::visit([&](const auto& law) { put_law("pressure", law); }, solid.pressure);
   std::visit([&](const auto& law) { put_law("flow", law); }, solid.flow);
+  if (solid.spall) {
+    writer.table("[" + header + ".spall]", "spall");
+    writer.put("strength", solid.spall->strength);
+    writer.put("mode", spall_mode_name(solid.spall->mode));
+  }
+  if (auto damage = solid.damage) {
+    writer.table("[" + header + ".damage]", "damage");
+    each_field(*damage, [&](const char* field, double value) { writer.put(field, value); });
+  }
 }
 
 void put_body(Writer& writer, const sph::Body& body) {

@@ -157,6 +157,56 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
   }
 }
 
+TEST(Mistakes, OfSolids) {
+  const std::string alone = "end_time = 1\n[structure]\nshape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\nmaterial = ";
+  const std::string steel = "{rho0 = 7800, young_modulus = 2e11, poisson_ratio = 0.3, ";
+  const std::string za = "{law = \"zerilli_armstrong\", ", damage = "{D1 = 0.1, D2 = 0.2, D3 = -1, D4 = 0, D5 = 0";
+  const std::string at = "structure.material.", needs = "; a law without 'base' needs all its parameters\n";
+  const std::vector<Mistake> all{
+      {"law unknown", steel + "flow = {law = \"cowper\"}}",
+       at + "flow.law must be one of elastic, linear_hardening, johnson_cook, power_hardening, cowper_symonds, "
+            "zerilli_armstrong, not the text \"cowper\""},
+      {"law missing", steel + "flow = {Y0 = 1e8}}",
+       at + "flow.law is missing; one of elastic, linear_hardening, johnson_cook, power_hardening, cowper_symonds, "
+            "zerilli_armstrong\n"},
+      {"Cowper-Symonds without D", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, q = 5}}", at + "flow.D is missing" + needs},
+      {"negative D", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, D = -40, q = 5}}",
+       "4:122: " + at + "flow.D = -40 [1/s] must be greater than 0\n"},
+      {"q", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, D = 40, q = 0}}",
+       at + "flow.q = 0 must be greater than 0 and at most 100\n"},
+      {"n too large", steel + "flow = {law = \"power_hardening\", A = 1e8, B = 1e8, n = 20}}",
+       at + "flow.n = 20 must be greater than 0 and at most 10\n"},
+      {"softening", steel + "flow = {law = \"power_hardening\", A = 1e8, B = -1e8, n = 1}}",
+       at + "flow.B = -1e+08 [Pa] must be at least 0\n"},
+      {"Zerilli-Armstrong without C3", steel + "flow = " + za + "C0 = 1e8, C4 = 1e-4}}", at + "flow.C3 is missing" + needs},
+      {"Zerilli-Armstrong without strength", steel + "flow = " + za + "C0 = 0, C2 = 1e9, C3 = 1e-3, C4 = 1e-4}}",
+       "4:76: " + at + "flow.C0 and C1 are both 0: nothing would resist the first strain; one of them must be greater than 0\n"},
+      {"molten at home", "{base = \"al-6061-t6\", flow = {T_melt = 200}}",
+       at + "flow.T_melt = 200 [K] must be greater than its T_room = 293 [K]\n"},
+      {"spall without strength", "{base = \"al-6061-t6\", spall = {mode = \"fail\"}}",
+       at + "spall.strength is missing; give the tension in Pa at which the material parts, e.g. strength = 1e9\n"},
+      {"pressure for tension", "{base = \"al-6061-t6\", spall = {strength = -1e9}}",
+       at + "spall.strength = -1e+09 [Pa] must be greater than 0\n"},
+      {"spall mode", "{base = \"al-6061-t6\", spall = {strength = 1e9, mode = \"fails\"}}",
+       at + "spall.mode: unknown 'fails'; did you mean 'fail'?\n"},
+      {"spall as a number", "{base = \"al-6061-t6\", spall = 1e9}", at + "spall must be a table"},
+      {"damage constant missing", "{base = \"al-6061-t6\", damage = {D1 = 0.1, D2 = 0.2, D3 = -1, D4 = 0}}",
+       at + "damage.D5 is missing; Johnson and Cook's fracture strain needs D1 to D5; write 0 for a term that it does not have\n"},
+      {"sign of D3", "{base = \"al-6061-t6\", damage = {D1 = 0.1, D2 = 0.2, D3 = 1, D4 = 0, D5 = 0}}",
+       at + "damage.D3 = 1 must be from -100 to 0\n"},
+      {"damage without a melting point", "{base = \"al-5086-za\", damage = " + damage + "}}",
+       at + "damage.T_melt is missing; give the melting temperature in K: only a flow stress of law \"johnson_cook\" brings one\n"},
+      {"broken from the start", "{base = \"al-6061-t6\", damage = {D1 = -0.5, D2 = 0.25, D3 = 0, D4 = 0, D5 = 0}}",
+       at + "damage: D1 + D2 exp(1.5 D3) = -0.25 must be greater than 0: it is the fracture strain in the highest tension that counts\n"},
+      {"unknown key of damage", "{base = \"al-6061-t6\", damage = " + damage + ", D6 = 1}}", "unknown key 'D6' in " + at + "damage"},
+  };
+  for (const Mistake& each : all) {
+    const std::string found = mistakes(alone + each.scene + "\n");
+    EXPECT_NE(found.find(each.expected), std::string::npos) << each.what << " gave:\n" << found << "expected:\n" << each.expected;
+  }
+  EXPECT_EQ(mistakes(alone + "{base = \"al-5086-za\", damage = " + damage + ", T_melt = 893}, spall = {strength = 1e9}}\n"), "");
+}
+
 TEST(Mistakes, GoodScenesHaveNone) {
   EXPECT_EQ(mistakes(coupled_tube), "");
   EXPECT_EQ(mistakes(two_gases), "");

@@ -113,6 +113,17 @@ TEST(Read, ElasticConstants) {
   EXPECT_DOUBLE_EQ(std::get<materials::LinearPressure>(scene.structure->material.pressure).bulk_modulus, 400e9 / 3);
 }
 
+TEST(Read, DamageTakesTheTemperaturesOfItsFlowStress) {
+  const Scene scene = read_text(with(coupled_tube, "material = \"al-5083-h116\"",
+                                     "material = {base = \"al-5083-h116\", flow = {T_room = 300, rate0 = 0.1}, "
+                                     "damage = {D1 = 0.1, D2 = 0.2, D3 = -1.5, D4 = 0, D5 = 0, rate0 = 2}}"));
+  const auto& damage = scene.structure->material.damage.value();
+  EXPECT_EQ(damage.T_melt, 893);
+  EXPECT_EQ(damage.T_room, 300);
+  EXPECT_EQ(damage.rate0, 2);
+  EXPECT_FALSE(scene.structure->material.spall.has_value());
+}
+
 TEST(Read, InstantaneousBurnHasTwoSpellings) {
   for (const char* burn : {"burn = \"instantaneous\"", "burn = {model = \"instantaneous\"}"}) {
     const Scene scene = read_text(with(coupled_tube, "material = \"petn\"", std::string("material = \"petn\"\n") + burn));
