@@ -71,13 +71,14 @@ inline void add_damage(const JohnsonCookDamage& law, double pressure, double mis
   damage = std::min(damage, failed);
 }
 
-/// The step at all points. `breaks`: the solid can fail; the others do not pay for it.
-template <bool breaks>
-void advance(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
-             const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step) {
+}  // namespace
+
+void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
+                      const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step) {
   EightPoints strain[6], stored_before;
   EightPoints(&s)[6] = points.deviator;
-  if constexpr (breaks)
+  const bool breaks = can_fail(solid);
+  if (breaks)
     for (int q = 0; q < N; ++q) stored_before[q] = stored(solid, s, q);
   rotate_and_strain(solid.shear_modulus, gradient, points, step, strain);
   const double heating = solid.taylor_quinney / solid.heat_capacity;
@@ -104,14 +105,6 @@ void advance(const Solid& solid, const EightPoints (&gradient)[3][3], const Eigh
     }
     step.new_work[q] = contracted(s, strain, q);
   }
-}
-
-}  // namespace
-
-void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
-                      const EightPoints& pressure, double dt, SolidPoints& points, SolidStep& step) {
-  if (can_fail(solid)) advance<true>(solid, gradient, specific_volume, pressure, dt, points, step);
-  else advance<false>(solid, gradient, specific_volume, pressure, dt, points, step);
 }
 
 }  // namespace undex::materials

@@ -1,0 +1,179 @@
+// A single cell follows the point's stress update, breaks by eighths and keeps account of its energy when it does.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <functional>
+
+#include "bodies.hpp"
+
+namespace undex::fem::testing {
+namespace {
+
+using Nodes = std::vector<Vec3>;
+
+materials::Solid metal(materials::FlowStress flow) {
+  materials::Solid solid = elastic(7800.0, 200e9, 0.3);
+  solid.flow = flow;
+  solid.heat_capacity = 450.0;
+  return solid;
+}
+
+/// One cube, moved by hand; the work done on its nodes is counted.
+struct Cube {
+  Grid grid = Mesher(plate(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, elastic(1, 1, 0.3))).grid();
+  Elements elements;
+  Nodes x = grid.nodes, force = Nodes(8, Vec3::Zero());
+  double work = 0.0;
+
+  explicit Cube(const materials::Solid& solid) : elements(grid, solid, 0.0, 0.0) {}
+
+  void move(const std::function<Vec3(const Vec3&)>& map, double dt) {
+    Nodes u(8);
+    const Nodes old_force = force;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Vec3 to = map(grid.nodes[i]);
+      u[i] = to - x[i];
+      x[i] = to;
+    }
+    ASSERT_EQ(elements.advance(x, u, dt, force), -1);
+    for (std::size_t i = 0; i < 8; ++i) work += 0.5 * (old_force[i] + force[i]).dot(u[i]);
+  }
+  void stretch(double along, double dt = 1e-6) {
+    move([along](const Vec3& X) { return Vec3(X[0] * along, X[1], X[2]); }, dt);
+  }
+};
+
+TEST(MaterialPoint, ACellInUniformMotionFollowsThePointToRoundOff) {
+  using namespace materials;
+  const FlowStress laws[] = {Elastic{},
+                             LinearHardening{300e6, 1e9},
+                             PowerHardening{200e6, 500e6, 0.4},
+                             JohnsonCook{175e6, 380e6, 0.32, 0.06, 0.55, 1811.0},
+                             CowperSymonds{250e6, 800e6, 40.0, 5.0},
+                             ZerilliArmstrong{.C0 = 65e6, .C2 = 890e6, .C3 = 0.0028, .C4 = 0.000115}};
+  for (const FlowStress& flow : laws) {
+    Solid solid = metal(flow);
+    solid.damage = JohnsonCookDamage{.D1 = 0.05, .D2 = 3.44, .D3 = -2.12, .D4 = 0.002, .D5 = 0.61, .T_melt = 1793.0};
+    Cube cube(solid);
+    SolidPoints point{};
+    for (double& T : point.temperature) T = solid.T_room;
+    Mat3 slope, F = Mat3::Identity();
+    slope << 0.10, 0.08, -0.03, 0.02, -0.04, 0.05, -0.06, 0.01, -0.02;
+    const int steps = 200;
+    const double dt = 1e-7;
+    for (int step = 1; step <= steps; ++step) {
+      const Mat3 next = Mat3::Identity() + slope * step / steps;
+      const Mat3 change = (next - F) * (0.5 * (F + next)).inverse();
+      EightPoints gradient[3][3], volume, pressure;
+      for (int q = 0; q < 8; ++q) {
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) gradient[i][j][q] = change(i, j);
+        volume[q] = next.determinant() / solid.rho0;
+        pressure[q] = cube.elements.pressure(0);
+      }
+      SolidStep done;
+      advance_deviator(solid, gradient, volume, pressure, dt, point, done);
+      cube.move([&](const Vec3& X) { return Vec3(next * X); }, dt);
+      F = next;
+    }
+    const double scale = std::max(1e8, std::abs(point.deviator[0][0]));
+    for (int q = 0; q < 8; ++q) {
+      const Mat3 stress = cube.elements.stress(0, q) + cube.elements.pressure(0) * Mat3::Identity();
+      const double s[6] = {stress(0, 0), stress(1, 1), stress(2, 2), stress(1, 2), stress(2, 0), stress(0, 1)};
+      for (int k = 0; k < 6; ++k) EXPECT_NEAR(s[k], point.deviator[k][q], 1e-11 * scale) << flow.index();
+      EXPECT_NEAR(cube.elements.plastic_strain(0, q), point.plastic_strain[q], 1e-12) << flow.index();
+      EXPECT_NEAR(cube.elements.temperature(0, q), point.temperature[q], 1e-9) << flow.index();
+      EXPECT_NEAR(cube.elements.damage(0, q), point.damage[q], 1e-12) << flow.index();
+    }
+  }
+}
+
+TEST(Failure, CutoffHoldsThePressureAndGivesTheWorkBack) {
+  materials::Solid solid = metal(materials::Elastic{});
+  solid.spall = materials::Spall{.strength = 1e9};
+  Cube cube(solid);
+  for (int i = 1; i <= 200; ++i) cube.stretch(1.0 + 1e-4 * i);
+  EXPECT_EQ(cube.elements.pressure(0), -1e9);
+  EXPECT_GT(cube.elements.stress(0, 0)(0, 0), 2e9) << "the deviator goes on";
+  EXPECT_NEAR(cube.elements.elastic_energy(), cube.work, 1e-3 * cube.work);
+  const double most = cube.work;
+  for (int i = 199; i >= 0; --i) cube.stretch(1.0 + 1e-4 * i);
+  EXPECT_NEAR(cube.elements.pressure(0), 0.0, 1.0);
+  EXPECT_LT(std::abs(cube.work), 1e-3 * most);
+  EXPECT_EQ(cube.elements.damage(0, 0), 0.0);
+}
+
+TEST(Failure, SpallTakesTensionAndDeviatorForGood) {
+  materials::Solid solid = metal(materials::Elastic{});
+  solid.spall = materials::Spall{.strength = 1e9, .mode = materials::Spall::Mode::fail};
+  Cube cube(solid);
+  const double bulk = 200e9 / (3 * 0.4);
+  double least = 0.0;
+  for (int i = 1; i <= 200; ++i) {
+    cube.stretch(1.0 + 1e-4 * i);
+    least = std::min(least, cube.elements.pressure(0));
+  }
+  EXPECT_NEAR(least, -1e9, 1.1e-4 * bulk);
+  EXPECT_EQ(cube.elements.pressure(0), 0.0);
+  for (int q = 0; q < 8; ++q) {
+    EXPECT_EQ(cube.elements.stress(0, q).norm(), 0.0);
+    EXPECT_EQ(cube.elements.damage(0, q), 1.0);
+  }
+  // All work that broke it is plastic, none is left to be given back; the account is that of the forces.
+  EXPECT_GT(cube.work, 0.0);
+  EXPECT_NEAR(cube.elements.elastic_energy() + cube.elements.plastic_work(), cube.work, 1e-3 * cube.work);
+  EXPECT_LT(std::abs(cube.elements.elastic_energy()), 0.02 * cube.work);
+  // Closed again it carries compression, and only that.
+  for (int i = 199; i >= -50; --i) cube.stretch(1.0 + 1e-4 * i);
+  EXPECT_NEAR(cube.elements.pressure(0), bulk * (1.0 / 0.995 - 1.0), 1e-6 * bulk);
+  EXPECT_LT((cube.elements.stress(0, 0) + cube.elements.pressure(0) * Mat3::Identity()).norm(), 1e-3);
+  for (int i = -50; i <= 0; ++i) cube.stretch(1.0 + 1e-4 * i);
+  EXPECT_NEAR(cube.elements.elastic_energy() + cube.elements.plastic_work(), cube.work, 1e-3 * cube.work);
+}
+
+TEST(Failure, ACellBreaksByEighths) {
+  materials::Solid solid = metal(materials::LinearHardening{200e6, 0.0});
+  solid.damage = materials::JohnsonCookDamage{.D1 = 0.02, .D2 = 0.0, .D3 = 0.0, .D4 = 0.0, .D5 = 0.0, .T_melt = 1800.0};
+  Cube cube(solid);
+  const double bulk = 200e9 / (3 * 0.4);
+  int last = 0;
+  bool partly = false;
+  for (int i = 1; i <= 400; ++i) {
+    const double a = 2e-4 * i;
+    // Bent as it is stretched: the points strain differently; the volume grows a little.
+    const auto bent = [a](const Vec3& X) {
+      return Vec3(X[0] * (1.0 + a * (0.3 + X[1])), X[1] * (1.0 - 0.35 * a), X[2] * (1.0 - 0.35 * a));
+    };
+    cube.move(bent, 1e-6);
+    int broken = 0;
+    for (int q = 0; q < 8; ++q) broken += cube.elements.damage(0, q) >= 1.0;
+    EXPECT_GE(broken, last);
+    last = broken;
+    partly |= broken > 0 && broken < 8;
+    const double law = bulk * (1.0 / cube.elements.volume(0) - 1.0);
+    ASSERT_LT(law, 0.0);
+    ASSERT_NEAR(cube.elements.pressure(0), law * (8 - broken) / 8.0, 1e-9 * bulk);
+    for (int q = 0; q < 8; ++q)
+      if (cube.elements.damage(0, q) >= 1.0) {
+        ASSERT_LT((cube.elements.stress(0, q) + cube.elements.pressure(0) * Mat3::Identity()).norm(), 1e-3);
+      }
+  }
+  EXPECT_TRUE(partly);
+  EXPECT_EQ(last, 8);
+  EXPECT_NEAR(cube.elements.elastic_energy() + cube.elements.plastic_work(), cube.work, 2e-3 * cube.work);
+  EXPECT_LT(std::abs(cube.elements.elastic_energy()), 0.05 * cube.work);
+}
+
+TEST(Failure, OnlySolidsThatCanFailStoreDamage) {
+  materials::Solid solid = metal(materials::LinearHardening{200e6, 0.0});
+  const std::size_t without = Cube(solid).elements.memory_bytes();
+  solid.spall = materials::Spall{.strength = 1e9};
+  EXPECT_EQ(Cube(solid).elements.memory_bytes(), without);
+  solid.spall->mode = materials::Spall::Mode::fail;
+  EXPECT_EQ(Cube(solid).elements.memory_bytes(), without + 8 * sizeof(double));
+}
+
+}  // namespace
+}  // namespace undex::fem::testing
