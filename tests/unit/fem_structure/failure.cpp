@@ -166,6 +166,54 @@ TEST(Failure, ACellBreaksByEighths) {
   EXPECT_LT(std::abs(cube.elements.elastic_energy()), 0.05 * cube.work);
 }
 
+TEST(Failure, ATriangularPulseSpallsAtItsDepthAndThrowsTheScabOff) {
+  // A pulse of peak P and length L, front first, meets the free end of an elastic bar without lateral motion. Reflected it
+  // pulls: at depth x by 2 P x/L at most, of which the pressure has the share K/(K + 4G/3) = k. It spalls at x = S L/(2 P k),
+  // and the scab keeps the momentum of the pulse over 2x: velocity 2 P (1 - x/L)/(rho c).
+  const double P = 100e6, depth_share = 0.3;
+  const int cells = 240, pulse = 100;
+  materials::Solid solid = metal(materials::Elastic{});
+  const double bulk = materials::bulk_modulus(solid), k = bulk / (bulk + 4.0 / 3.0 * solid.shear_modulus);
+  const double c = materials::wave_speed(solid), duration = pulse / c;
+  solid.spall = materials::Spall{.strength = 2.0 * depth_share * k * P, .mode = materials::Spall::Mode::fail};
+  const Grid grid = Mesher(plate(Vec3(0, 0, 0), Vec3(cells, 1, 1), {cells, 1, 1}, solid)).grid();
+  Elements elements(grid, solid, 0.06, 1.2);
+  const std::size_t n = grid.nodes.size();
+  Nodes x = grid.nodes, u(n), v(n, Vec3::Zero()), force(n, Vec3::Zero());
+  const double dt = 0.8 * elements.critical_step(), end = (cells + 1.2 * pulse) / c;
+  for (double t = 0.0; t < end; t += dt) {
+    const double load = t < duration ? P * (1.0 - t / duration) : 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double push = grid.nodes[i][0] == 0.0 ? 0.25 * load : 0.0;
+      v[i][0] += dt * (push - force[i][0]) / elements.nodal_mass()[i];
+      u[i] = dt * v[i];
+      x[i] += u[i];
+    }
+    ASSERT_EQ(elements.advance(x, u, dt, force), -1);
+  }
+  int last = -1, broken = 0;
+  for (int cell = 0; cell < cells; ++cell)
+    if (elements.damage(cell, 0) >= 1.0) {
+      last = std::max(last, static_cast<int>(grid.nodes[grid.cells[cell][0]][0]));
+      ++broken;
+    }
+  ASSERT_GE(last, 0) << "it must spall";
+  RecordProperty("depth_over_expected", std::to_string((cells - last - 0.5) / (depth_share * pulse)));
+  RecordProperty("broken_cells", std::to_string(broken));
+  EXPECT_NEAR(cells - last - 0.5, depth_share * pulse, 0.08 * depth_share * pulse);
+  // The front is a few cells wide: what of it has passed the first crack may crack the bar again behind.
+  EXPECT_LE(broken, 5);
+  double momentum = 0.0, mass = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (grid.nodes[i][0] > last + 1.5) {
+      momentum += elements.nodal_mass()[i] * v[i][0];
+      mass += elements.nodal_mass()[i];
+    }
+  const double expected = 2.0 * P * (1.0 - depth_share) / (solid.rho0 * c);
+  RecordProperty("scab_velocity_over_expected", std::to_string(momentum / mass / expected));
+  EXPECT_NEAR(momentum / mass, expected, 0.08 * expected);
+}
+
 TEST(Failure, OnlySolidsThatCanFailStoreDamage) {
   materials::Solid solid = metal(materials::LinearHardening{200e6, 0.0});
   const std::size_t without = Cube(solid).elements.memory_bytes();
