@@ -31,7 +31,8 @@ struct SolidStep {
 /// Takes eight points over a step dt [s] in which the displacement has changed by the gradient d u_i/d x_j =
 /// gradient[i][j] with respect to the positions at the middle of the step. Half of the elastic increment comes before the
 /// step's rotation and half after it. `specific_volume` [m^3/kg] turns plastic work into heat. Traces of gradient leave the
-/// deviator alone: pressure is the caller's (`evaluate`, then `spalls` and `carried_pressure` where the solid can fail).
+/// deviator alone: pressure is the caller's (`evaluate`, then `spalls` and `carried_pressure`; a cut-off acts even where no
+/// point can fail).
 /// `pressure` [Pa] is that at the start of the step; only Johnson-Cook damage reads it. A failed point, from the step in
 /// which its damage reaches 1 on, has no deviator; the elastic energy which that held counts as plastic work.
 void advance_deviator(const Solid& solid, const EightPoints (&gradient)[3][3], const EightPoints& specific_volume,
