@@ -119,6 +119,7 @@ struct PairInput {
   const SolidRow* solid;               ///< of the solids' passes, as the next
   DeformationRow* deformation;
   double artificial_stress, spacing;   ///< of the solids' forces
+  double contact_damping;              ///< share of the acoustic impedance
   const GroupView* groups;
   int group_count;
   const double *wall_x, *wall_y, *wall_z;

@@ -10,6 +10,15 @@
 #include "sph_fluid/kernels.hpp"
 
 namespace undex::sph {
+namespace {
+
+/// Bodies feel each other when their outer particles are a spacing and a half apart, half a spacing before they touch.
+constexpr double contact_reach = 1.5;
+double contact_h(const SolidPairs::Range& range) { return contact_reach / WendlandC2::support * range.spacing; }
+/// Share of the acoustic impedance by which contact is damped: enough to take the chatter out of it.
+constexpr double contact_damping = 0.3;
+
+}  // namespace
 
 SolidPairs::SolidPairs(const Settings& settings, std::vector<Range> ranges)
     : settings_(settings), ranges_(std::move(ranges)), cells_(ranges_.size()) {
@@ -29,21 +38,39 @@ SolidPairs::~SolidPairs() {
   for (Scratch& s : scratch_) release(s);
 }
 
+void SolidPairs::run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in) {
+  pass(in, {sums_.data(), nullptr, interactions_.data()});
+  for (const long long count : interactions_) interaction_sum_ += count;
+}
+
 void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt) {
   pack(particles);
-  PairInput in = input();
-  const PairOutput out{sums_.data(), nullptr, interactions_.data()};
-  if (updated_) {
-    loops_.deformation(in, out);
-    for (const long long count : interactions_) interaction_sum_ += count;
-    update_stresses(particles, dt);
+  const PairInput in = input(views_);
+  const bool contact = ranges_.size() > 1;
+  if (updated_) run(loops_.deformation, in);
+  std::fill(sums_.begin(), sums_.end(), SumRow{});
+  if (contact) {
+    run(loops_.contact_rate, input(contact_views_));
+    grow_contact(particles, dt);
   }
+  if (updated_) update_stresses(particles, dt);
   fill_rows(particles, acceleration, dt);
   std::fill(sums_.begin(), sums_.end(), SumRow{});
-  if (updated_) loops_.forces(in, out);
-  if (ranges_.size() > 1) loops_.contact(in, out);
-  for (const long long count : interactions_) interaction_sum_ += count;
+  if (updated_) run(loops_.forces, in);
+  if (contact) run(loops_.contact_forces, input(contact_views_));
   hand_back(particles);
+}
+
+/// The contact pressure follows what closes in; without anybody near there is none.
+void SolidPairs::grow_contact(SolidParticles& p, double dt) {
+  for (const Range& range : ranges_) {
+    const double modulus = materials::bulk_modulus(range.body->material) + 4.0 / 3.0 * range.body->material.shear_modulus;
+#pragma omp parallel for schedule(static)
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      double& q = p.contact_pressure[particle_[k]];
+      q = sums_[k].heat > 0.0 ? std::max(0.0, q + modulus * sums_[k].compression * dt) : 0.0;
+    }
+  }
 }
 
 /// Sorts each body's particles by cell; the velocities of the rows are those of the half step, as the deformation wants.
@@ -56,6 +83,7 @@ void SolidPairs::pack(const SolidParticles& p) {
     z_[i] = p.x[i][2];
   }
   views_.clear();
+  contact_views_.clear();
   double reach = 0;
   for (std::size_t g = 0; g < ranges_.size(); ++g) {
     const Range& range = ranges_[g];
@@ -70,6 +98,8 @@ void SolidPairs::pack(const SolidParticles& p) {
     GroupView view{range.begin, range.end, cells_[g].view(), range.h, false, false};
     view.own_pairs = range.updated;
     views_.push_back(view);
+    view.h_max = contact_h(range);
+    contact_views_.push_back(view);
     reach = std::max(reach, WendlandC2::support * range.h);
   }
 #pragma omp parallel for schedule(static)
@@ -81,12 +111,12 @@ void SolidPairs::pack(const SolidParticles& p) {
     rows_[k] = {p.v[i][0], p.v[i][1], p.v[i][2], p.pressure[i], p.mass[i] / p.rho[i], p.rho[i], p.sound[i], 0.0};
   }
   for (const Range& range : ranges_)
-    for (std::uint32_t k = range.begin; k < range.end; ++k) rows_[k].h = range.h;
+    for (std::uint32_t k = range.begin; k < range.end; ++k) rows_[k].h = contact_h(range);
   blocks_.build(views_, reach);
   interactions_.assign(blocks_.block_count(), 0);
 }
 
-PairInput SolidPairs::input() {
+PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   PairInput in{};
   in.dimension = settings_.dimension;
   in.x = x_.data();
@@ -97,8 +127,9 @@ PairInput SolidPairs::input() {
   in.deformation = deformation_.data();
   in.artificial_stress = settings_.solid_numerics.artificial_stress;
   in.spacing = ranges_[0].spacing;
-  in.groups = views_.data();
-  in.group_count = int(views_.size());
+  in.groups = views.data();
+  in.group_count = int(views.size());
+  in.contact_damping = contact_damping;
   for (int a = 0; a < 3; ++a) in.mirror[a] = settings_.symmetry.axis[a];
   in.alpha = settings_.solid_numerics.alpha;
   in.beta = settings_.solid_numerics.beta;
@@ -164,6 +195,7 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
       } else {
         row.volume = p.mass[i] / p.rho[i];
       }
+      row.p = p.contact_pressure[i];
       row.rho = p.rho[i];
       row.c = p.sound[i];
       solid.stress[0] = sigma(0, 0), solid.stress[1] = sigma(1, 1), solid.stress[2] = sigma(2, 2);

@@ -38,16 +38,19 @@ class SolidPairs {
 
  private:
   void pack(const SolidParticles& particles);
-  PairInput input();
+  PairInput input(const std::vector<GroupView>& views);
+  void run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+  void grow_contact(SolidParticles& particles, double dt);
   void hand_back(SolidParticles& particles) const;
 
   const Settings& settings_;
   SolidLoops loops_ = solid_loops();
   std::vector<Range> ranges_;
   std::vector<CellList> cells_;
-  std::vector<GroupView> views_;
+  std::vector<GroupView> views_;                   ///< with the h of the bodies' own pairs
+  std::vector<GroupView> contact_views_;           ///< and of contact
   BlockOrder blocks_;
   bool updated_ = false;
   std::vector<std::uint32_t> particle_;            ///< of each row

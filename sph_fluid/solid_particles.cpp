@@ -10,12 +10,12 @@ void SolidParticles::resize(std::size_t n) {
   for (auto* field : {&start, &x, &v, &force}) field->assign(n, Vec3::Zero());
   for (auto& component : deviator) component.assign(n, 0.0);
   for (auto* field : {&mass, &rho, &pressure, &viscous_pressure, &plastic_strain, &temperature, &damage, &energy,
-                      &plastic_energy, &viscous_energy, &sound, &heat, &rate})
+                      &plastic_energy, &viscous_energy, &contact_pressure, &sound, &heat, &rate})
     field->assign(n, 0.0);
 }
 
 std::size_t SolidParticles::memory_bytes() const {
-  return size() * (4 * sizeof(Vec3) + (6 + 13) * sizeof(double));
+  return size() * (4 * sizeof(Vec3) + (6 + 14) * sizeof(double));
 }
 
 Mat3 SolidParticles::stress(std::size_t i) const {
@@ -45,15 +45,18 @@ void update_stress(const materials::Solid& solid, const BulkViscosity& viscosity
   }
   materials::SolidPoints points;
   materials::SolidStep done;
-  materials::EightPoints specific_volume;
+  materials::EightPoints specific_volume, pressure;
   for (int l = 0; l < N; ++l) {
     const std::uint32_t i = step.index[l];
     for (int k = 0; k < 6; ++k) points.deviator[k][l] = p.deviator[k][i];
     points.plastic_strain[l] = p.plastic_strain[i];
     points.temperature[l] = p.temperature[i];
+    points.damage[l] = p.damage[i];
+    pressure[l] = p.pressure[i];
     specific_volume[l] = 1.0 / step.density[l];
   }
-  materials::advance_deviator(solid, step.gradient, specific_volume, dt, points, done);
+  materials::advance_deviator(solid, step.gradient, specific_volume, pressure, dt, points, done);
+  const bool fails = materials::can_fail(solid);
   for (int l = 0; l < step.count; ++l) {
     const std::uint32_t i = step.index[l];
     for (int k = 0; k < 6; ++k) p.deviator[k][i] = points.deviator[k][l];
@@ -73,10 +76,12 @@ void update_stress(const materials::Solid& solid, const BulkViscosity& viscosity
     for (int correction = 0; correction < 2; ++correction)
       state = materials::evaluate(solid.pressure, solid.rho0, step.density[l],
                                   other - 0.5 * (p.pressure[i] + state.pressure) * opened);
-    p.energy[i] = other - 0.5 * (p.pressure[i] + state.pressure) * opened;
+    if (fails) p.damage[i] = materials::spalls(solid, state.pressure) ? materials::failed : points.damage[l];
+    const double carried = materials::carried_pressure(solid, state.pressure, p.damage[i]);
+    p.energy[i] = other - 0.5 * (p.pressure[i] + carried) * opened;
     p.plastic_energy[i] += plastic;
     p.viscous_energy[i] += viscous;
-    p.pressure[i] = state.pressure;
+    p.pressure[i] = carried;
     p.viscous_pressure[i] = q;
     p.rho[i] = step.density[l];
     p.sound[i] = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * solid.shear_modulus * volume);

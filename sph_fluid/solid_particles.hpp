@@ -21,6 +21,7 @@ struct SolidParticles {
   std::vector<double> plastic_strain, temperature, damage;
   std::vector<double> energy;                 ///< specific internal energy [J/kg]
   std::vector<double> plastic_energy, viscous_energy;  ///< the parts of it that are gone [J/kg]
+  std::vector<double> contact_pressure;       ///< with other bodies (solid_schemes.hpp) [Pa]
   std::vector<double> sound;                  ///< longitudinal wave speed [m/s]
 
   // What the last evaluation gave.

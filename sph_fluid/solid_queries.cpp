@@ -86,8 +86,14 @@ SolidLedger Solids::ledger() const {
   ledger.plastic = sum([&](std::uint32_t i) { return p.mass[i] * p.plastic_energy[i]; });
   ledger.viscous = sum([&](std::uint32_t i) { return p.mass[i] * p.viscous_energy[i]; });
   ledger.elastic = sum([&](std::uint32_t i) { return p.mass[i] * p.energy[i]; }) - ledger.plastic - ledger.viscous;
-  for (const SolidGroup& group : self_->groups)
+  for (const SolidGroup& group : self_->groups) {
     if (group.lagrangian) ledger.elastic += group.lagrangian->hourglass_energy();
+    const materials::Solid& solid = group.body->material;
+    const double modulus = materials::bulk_modulus(solid) + 4.0 / 3.0 * solid.shear_modulus;
+    ledger.elastic += blocked_sum<double>(group.begin, group.end, [&](std::uint32_t i) {
+      return 0.5 * p.contact_pressure[i] * p.contact_pressure[i] / modulus * p.mass[i] / p.rho[i];
+    });
+  }
   ledger.external = self_->external_work;
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;
   ledger.momentum = blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.v[i]; }).value;

@@ -3,7 +3,10 @@
 //   SolidForces       f_i = sum_j V_i V_j (sigma_i B_i + sigma_j B_j) grad W_ij, the exact derivative of the power of the
 //                     stresses with L (Bonet and Lok 1999, doi 10.1016/S0045-7825(99)00051-1), with a viscosity and an
 //                     artificial stress, both along the pair: momentum and angular momentum are conserved
-//   SolidContact      particles of different bodies: the normal pressure of an acoustic contact, never a tension
+//   ContactRate       how fast particles of other bodies close in on one: D_i = sum_j V_j v_ij . grad W_ij
+//   ContactForces     f_i = -sum_j V_i V_j (q_i + q_j) grad W_ij and a damping, q >= 0 being the contact pressure that has
+//                     grown by dq = K D dt: the bodies touch through a layer as stiff as they are, and a spacing thick, that
+//                     pushes and never pulls. Its stored energy is sum V q^2/(2 K), exactly what the forces take
 // The viscosity is Monaghan's, but on the jump that is left of v_ij . e when the velocity gradients of both sides have
 // carried it to the middle (as riemann_scheme.hpp does), approaching or not, and with the speed of shear waves: none in
 // smooth motion, all of it where neighbours move against each other unseen by any gradient. (Shocks have their bulk viscosity.)
@@ -81,7 +84,7 @@ struct VelocityGradient {
       const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
       const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
       const double determinant = xx * a + xy * b + zx * c;
-      const bool good = determinant > 0.05;
+      const bool good = determinant > 0.01;
       const double inverse = good ? 1.0 / determinant : 0.0;
       double* B = out[l].correction;
       B[0] = good ? a * inverse : 1.0, B[1] = good ? d * inverse : 1.0, B[2] = good ? f * inverse : 1.0;
@@ -176,27 +179,50 @@ struct SolidForces {
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 };
 
+/// What closes in on a particle: `compression` is D, `heat` the share of the particle's surroundings that is other bodies'.
 template <class T>
-struct SolidContact {
+struct ContactRate {
   using V = Vec<T>;
-  using State = SolidState<V>;
+  using State = FluidState<V>;
   using Wall = NoWall<V>;
   using Sums = FluidSums<V>;
   static constexpr bool symmetric = true;
   static constexpr Partners partners = Partners::other_bodies;
 
-  explicit SolidContact(const PairInput&) {}
+  explicit ContactRate(const PairInput&) {}
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    const V inverse_r2 = reciprocal(pair.r2 + T(1e-30)), inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
+    const V D = pair.F * ((i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz);
+    si.compression += j.volume * D;
+    sj.compression += i.volume * D;
+    const V share = -pair.F * pair.r2;
+    si.heat += j.volume * share;
+    sj.heat += i.volume * share;
+  }
+  UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
+};
+
+/// FluidRow's pressure is the contact pressure q.
+template <class T>
+struct ContactForces {
+  using V = Vec<T>;
+  using State = FluidState<V>;
+  using Wall = NoWall<V>;
+  using Sums = FluidSums<V>;
+  static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::other_bodies;
+  T damping;
+
+  explicit ContactForces(const PairInput& in) : damping(T(in.contact_damping)) {}
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
-    const V closing = -vr * inverse_r;
-    const V pi = -along(i.stress, pair) * inverse_r2, pj = -along(j.stress, pair) * inverse_r2;
+    const V closing = -vr * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V Zi = i.rho * i.c, Zj = j.rho * j.c;
-    const V p = maximum((Zj * pi + Zi * pj + Zi * Zj * closing) * reciprocal(Zi + Zj), V{});
-    const V central = 2 * pair.F * p;
-    add_force(central, pair, i.volume, j.volume, si, sj);
-    const V power = T(0.5) * central * vr;
+    // Never more than the springs hold back: the layer does not pull.
+    const V damped = maximum(damping * (Zi * Zj * reciprocal(Zi + Zj)) * closing, -(i.p + j.p));
+    add_force(pair.F * (i.p + j.p + damped), pair, i.volume, j.volume, si, sj);
+    const V power = T(0.5) * pair.F * damped * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
     const V speed = keep(pair.near, closing);
