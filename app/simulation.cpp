@@ -22,14 +22,16 @@ Simulation::Simulation(const scene::Scene& scene) {
   if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
   if (structure_ && scene.fluid.start_time > 0) structure_->advance(scene.fluid.start_time, {});
   if (!scene.fluid.solids.empty()) attempt([&] { solids_ = std::make_unique<sph::Solids>(scene.fluid); });
-  if (fluid_ && solids_) {
-    if (scene.coupling.solids == coupling::SolidContact::surface)
-      findings.push_back({{}, "coupling.solids = \"surface\" is not built yet; take \"particles\""});
-    else
-      attempt([&] { particle_system_ = std::make_unique<sph::ParticleSystem>(*fluid_, *solids_, scene.coupling.free_slip); });
-  }
-  if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
-    attempt([&] { coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *structure_, scene.coupling); });
+  const bool as_surface = scene.coupling.solids == coupling::SolidContact::surface;
+  if (fluid_ && solids_ && !as_surface)
+    attempt([&] { particle_system_ = std::make_unique<sph::ParticleSystem>(*fluid_, *solids_, scene.coupling.free_slip); });
+  attempt([&] {
+    if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
+      participant_ = std::make_unique<coupling::ElementParticipant>(*structure_);
+    else if (fluid_ && solids_ && as_surface)
+      participant_ = std::make_unique<coupling::ParticleParticipant>(*solids_);
+    if (participant_) coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *participant_, scene.coupling);
+  });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 
   bool planes = false;

@@ -68,6 +68,7 @@ class Simulation {
   std::unique_ptr<sph::Fluid> fluid_;
   std::unique_ptr<fem::Structure> structure_;
   std::unique_ptr<sph::Solids> solids_;
+  std::unique_ptr<coupling::Participant> participant_;
   std::unique_ptr<coupling::Coupler> coupler_;
   std::unique_ptr<sph::ParticleSystem> particle_system_;
   PassTimers timers_;

@@ -8,7 +8,7 @@
 
 namespace undex::coupling {
 
-Coupler::Coupler(sph::Fluid& fluid, fem::Structure& structure, const Settings& settings)
+Coupler::Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings)
     : fluid_(fluid),
       structure_(structure),
       settings_(settings),
@@ -73,7 +73,7 @@ Coupler::Window Coupler::advance(double end) {
 InterfaceLedger Coupler::ledger() const {
   InterfaceLedger ledger = ledger_;
   ledger.work_given = fluid_.ledger().wall_work;
-  ledger.work_received = structure_.energies().external;
+  ledger.work_received = structure_.external_work();
   return ledger;
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/timers.hpp"
+#include "coupling/participant.hpp"
 #include "coupling/settings.hpp"
 #include "coupling/wet_wall.hpp"
-#include "fem_structure/structure.hpp"
 #include "sph_fluid/fluid.hpp"
 
 namespace undex::coupling {
@@ -27,7 +27,7 @@ struct InterfaceLedger {
 class Coupler {
  public:
   /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
-  Coupler(sph::Fluid& fluid, fem::Structure& structure, const Settings& settings);
+  Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings);
 
   struct Window {
     double step = 0;            ///< last fluid step [s]
@@ -48,7 +48,7 @@ class Coupler {
   void show_wall(double ahead);
 
   sph::Fluid& fluid_;
-  fem::Structure& structure_;
+  Participant& structure_;
   Settings settings_;
   WetWall wall_;
   int wall_index_;

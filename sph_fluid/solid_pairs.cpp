@@ -215,7 +215,8 @@ void SolidPairs::hand_back(SolidParticles& p) const {
       p.force[i] += rows_[k].volume * Vec3(sum.fx, sum.fy, sum.fz);
       p.heat[i] = rows_[k].volume * sum.heat / p.mass[i];
       const double rate = (p.sound[i] + 0.6 * (numerics.alpha * shear_sound + numerics.beta * sum.closing)) / range.spacing;
-      p.rate[i] = range.updated ? rate : std::max(p.rate[i], (p.sound[i] + sum.closing) / range.spacing);
+      // The present's pairs take shorter steps than the start's: an impact at 6 km/s breaks at 0.5 of what a bar bears.
+      p.rate[i] = range.updated ? 1.4 * rate : std::max(p.rate[i], (p.sound[i] + sum.closing) / range.spacing);
     }
 }
 

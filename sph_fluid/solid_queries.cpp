@@ -169,7 +169,8 @@ Solids::Point Solids::locate(const Vec3& place) const {
     for (int a = dimension; a < 3; ++a) moment(a + 1, a + 1) = 1.0;
     for (unsigned image = 0; image < 8; ++image) {
       bool wanted = true;
-      for (int a = 0; a < 3; ++a) wanted = wanted && (!(image >> a & 1) || self_->settings.symmetry.axis[a]);
+      for (int a = 0; a < 3; ++a)
+        wanted = wanted && (!(image >> a & 1) || (self_->settings.symmetry.axis[a] && place[a] < WendlandC2::support * h));
       if (!wanted) continue;
       for (std::uint32_t i = group.begin; i < group.end; ++i) {
         const Vec3 d = (mirrored(p.start[i], image) - place) / h;

@@ -84,10 +84,11 @@ struct VelocityGradient {
       const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
       const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
       const double determinant = xx * a + xy * b + zx * c;
-      const bool good = determinant > 0.01;
-      const double inverse = good ? 1.0 / determinant : 0.0;
+      // A corner of a lattice has 1/8; below, the correction fades out, before the inverse of next to nothing can do harm.
+      const double trust = determinant < 0.1 ? determinant > 0.0 ? 100.0 * determinant * determinant : 0.0 : 1.0;
+      const double inverse = determinant > 0.0 ? trust / determinant : 0.0, rest = 1.0 - trust;
       double* B = out[l].correction;
-      B[0] = good ? a * inverse : 1.0, B[1] = good ? d * inverse : 1.0, B[2] = good ? f * inverse : 1.0;
+      B[0] = a * inverse + rest, B[1] = d * inverse + rest, B[2] = f * inverse + rest;
       B[3] = b * inverse, B[4] = e * inverse, B[5] = c * inverse;
       for (int r = 0; r < 3; ++r) {
         const double gx = s[6 + 3 * r][l], gy = s[7 + 3 * r][l], gz = s[8 + 3 * r][l];

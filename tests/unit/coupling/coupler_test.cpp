@@ -33,6 +33,7 @@ struct Choice {
 struct Column {
   sph::Fluid fluid;
   fem::Structure structure;
+  ElementParticipant participant;
   Coupler coupler;
 
   static sph::Settings water(const Choice& s) {
@@ -70,7 +71,7 @@ struct Column {
   }
 
   explicit Column(const Choice& s)
-      : fluid(water(s)), structure(plate(s)), coupler(fluid, structure, coupling(s)) {}
+      : fluid(water(s)), structure(plate(s)), participant(structure), coupler(fluid, participant, coupling(s)) {}
 
   Coupler::Window run(double end) {
     Coupler::Window last;
