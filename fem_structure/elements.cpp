@@ -8,11 +8,6 @@
 namespace undex::fem {
 namespace {
 
-// Cells below this count are not worth waking threads for.
-constexpr std::size_t worth_threads = 512;
-// A cell that has strained by this much gets its highest frequency anew.
-constexpr double frequency_strain = 0.01;
-
 using Lanes = materials::EightPoints;  // one value per quadrature point
 
 /// result[i][j] = sum over nodes of v[i] dN/dxi_j, at all quadrature points.
@@ -71,13 +66,6 @@ inline void spread(const Lanes (&stress)[6], const Lanes (&inverse)[3][3], const
   }
 }
 
-inline void collect(std::span<const Vec3> from, const std::array<int, 8>& cell, double (&to)[3][8]) {
-  for (int node = 0; node < 8; ++node) {
-    const Vec3& value = from[cell[node]];
-    for (int i = 0; i < 3; ++i) to[i][node] = value[i];
-  }
-}
-
 /// Share of the points that have not failed.
 inline double intact_share(const Lanes& damage) {
   int intact = 0;
@@ -85,50 +73,19 @@ inline double intact_share(const Lanes& damage) {
   return 0.125 * intact;
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 }  // namespace
 
 Elements::Elements(const Grid& grid, const materials::Solid& material, double linear_viscosity,
                    double quadratic_viscosity)
-    : material_(material),
-      linear_viscosity_(linear_viscosity),
-      quadratic_viscosity_(quadratic_viscosity),
-      reference_(grid.reference),
-      cells_(grid.cells) {
+    : ElementSet(grid, material, linear_viscosity, quadratic_viscosity), reference_(grid.reference) {
   const std::size_t n = cells_.size();
   for (auto& component : deviator_) component.assign(8 * n, 0.0);
   plastic_strain_.assign(8 * n, 0.0);
   temperature_.assign(8 * n, material.T_room);
   weight_.resize(8 * n);
   if (materials::can_fail(material)) damage_.assign(8 * n, 0.0);
-  for (auto* field : {&pressure_, &viscous_pressure_, &energy_, &volume_, &elastic_, &plastic_, &viscous_, &frequency_,
-                      &frequency_bulk_, &strain_since_, &compression_rate_, &critical_step_, &cell_mass_})
-    field->assign(n, 0.0);
-  corner_force_.assign(24 * n, 0.0);
-  mode_.resize(24 * n);
-  corner_mass_.resize(8 * n);
-  nodal_mass_.assign(grid.nodes.size(), 0.0);
-
-  std::vector<std::size_t> count(grid.nodes.size() + 1, 0);
-  for (const auto& cell : cells_)
-    for (int node : cell) ++count[node + 1];
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  corners_begin_ = count;
-  corners_.resize(8 * n);
-  for (std::size_t c = 0; c < n; ++c)
-    for (int i = 0; i < 8; ++i) corners_[count[cells_[c][i]]++] = 8 * c + i;
-
-  for (std::size_t c = 0; c < n; ++c)
-    for (int i = 0; i < 8; ++i) {
-      corner_mass_[8 * c + i] = material.rho0 * grid.nodal_volume[c][i];
-      cell_mass_[c] += corner_mass_[8 * c + i];
-      nodal_mass_[cells_[c][i]] += corner_mass_[8 * c + i];
-    }
-
-  const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
-  const Moduli moduli{material_.rho0 * rest.bulk_sound * rest.bulk_sound, 2.0 * material_.shear_modulus};
-#pragma omp parallel for schedule(static) if (n > worth_threads)
+  for (auto* field : {&viscous_pressure_, &energy_, &volume_}) field->assign(n, 0.0);
+  pressure_.assign(n, materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0).pressure);
   for (std::size_t c = 0; c < n; ++c) {
     double x[3][8];
     Lanes jacobian[3][3], inverse[3][3], determinant;
@@ -139,22 +96,8 @@ Elements::Elements(const Grid& grid, const materials::Solid& material, double li
       weight_[8 * c + q] = reference_.weight[q] * determinant[q];
       volume_[c] += weight_[8 * c + q];
     }
-    pressure_[c] = rest.pressure;
-    // A start that no symmetry of the cell can hide from.
-    for (int k = 0; k < 24; ++k) mode_[24 * c + k] = std::sin(1.0 + 1.7 * k + 0.31 * k * k);
-    find_frequency(c, x, moduli, 400);
-    set_critical_step(c, std::sqrt((moduli.bulk + 2.0 / 3.0 * moduli.twice_shear) / material_.rho0), moduli.bulk);
   }
-}
-
-long Elements::advance(std::span<const Vec3> x, std::span<const Vec3> u, double dt, std::span<Vec3> force) {
-  const long n = static_cast<long>(cells_.size());
-  long failed = n;
-#pragma omp parallel for schedule(static) reduction(min : failed) if (cells_.size() > worth_threads)
-  for (long c = 0; c < n; ++c)
-    if (!advance_cell(c, x, u, dt)) failed = std::min(failed, c);
-  gather(corner_force_, force);
-  return failed == n ? -1 : failed;
+  find_first_steps(grid);
 }
 
 bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
@@ -232,11 +175,7 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / mass);
   const double shear = material_.shear_modulus;
   const double sound = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * shear / density);
-  const double length = 2.0 * sound / frequency_[c];  // the cell's shortest extent, as its highest mode sees it
-  compression_rate_[c] = std::max(0.0, -rate);
-  viscous_pressure_[c] = density * length * compression_rate_[c] *
-                         (linear_viscosity_ * sound +
-                          quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c]);
+  viscous_pressure_[c] = viscous_pressure(c, rate, density, sound);
   const double viscous_work = -0.5 * (old_viscous + viscous_pressure_[c]) * opened;
   const double other_work = energy_[c] + deviatoric_work + viscous_work;
   const auto carried = [&](double pressure) {
@@ -265,32 +204,15 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   plastic_[c] += plastic_work;
   viscous_[c] += viscous_work;
 
-  // Highest frequency: anew when the cell has changed, otherwise enlarged by what the strain since may have done.
-  const double bulk_modulus = density * state.bulk_sound * state.bulk_sound;
-  strain_since_[c] += most_strain;
-  if (strain_since_[c] > frequency_strain) find_frequency(c, x, {bulk_modulus, 2.0 * shear}, 20);
-  set_critical_step(c, sound, bulk_modulus);
+  follow_frequency(c, x, most_strain, sound, density * state.bulk_sound * state.bulk_sound);
 
   const double total_pressure = pressure + viscous_pressure_[c];
   for (int k = 0; k < 3; ++k)
     for (int q = 0; q < 8; ++q) points.deviator[k][q] -= total_pressure;
   double force[3][8];
   spread(points.deviator, inverse, weight, reference_, force);
-  double* out = &corner_force_[24 * c];
-  for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i) out[3 * node + i] = force[i][node];
+  put_forces(c, force);
   return std::isfinite(total_pressure);
-}
-
-void Elements::gather(const std::vector<double>& corner_force, std::span<Vec3> force) const {
-  const long nodes = static_cast<long>(nodal_mass_.size());
-#pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
-  for (long node = 0; node < nodes; ++node) {
-    Vec3 sum_of_cells = Vec3::Zero();
-    for (std::size_t k = corners_begin_[node]; k < corners_begin_[node + 1]; ++k)
-      sum_of_cells += Eigen::Map<const Vec3>(&corner_force[3 * corners_[k]]);
-    force[node] = sum_of_cells;
-  }
 }
 
 void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const {
@@ -320,77 +242,22 @@ void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Mod
   spread(stress, inverse, weight, reference_, force);
 }
 
-void Elements::linear_force(std::span<const Vec3> positions, std::span<const Vec3> displacements,
-                            std::span<Vec3> force) const {
-  std::vector<double> corner_force(24 * cells_.size());
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    CellVectors x, u, f;
-    collect(positions, cells_[c], x);
-    collect(displacements, cells_[c], u);
-    const double density = cell_mass_[c] / volume_[c];
-    const auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / cell_mass_[c]);
-    linear_cell_force(x, u, {density * state.bulk_sound * state.bulk_sound, 2.0 * material_.shear_modulus}, f);
-    for (int node = 0; node < 8; ++node)
-      for (int i = 0; i < 3; ++i) corner_force[24 * c + 3 * node + i] = f[i][node];
-  }
-  gather(corner_force, force);
+ElementSet::Moduli Elements::moduli(std::size_t c) const {
+  const double density = cell_mass_[c] / volume_[c];
+  const auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / cell_mass_[c]);
+  return {density * state.bulk_sound * state.bulk_sound, 2.0 * material_.shear_modulus};
 }
 
-void Elements::find_frequency(std::size_t c, const CellVectors& x, Moduli moduli, int most_iterations) {
-  double* mode = &mode_[24 * c];
-  const double* mass = &corner_mass_[8 * c];
-  CellVectors v, f;
-  for (int i = 0; i < 3; ++i)
-    for (int node = 0; node < 8; ++node) v[i][node] = mode[8 * i + node];
-  double square = 0.0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    double norm = 0.0;
-    for (int i = 0; i < 3; ++i)
-      for (int node = 0; node < 8; ++node) norm += mass[node] * v[i][node] * v[i][node];
-    const double scale = 1.0 / std::sqrt(norm);
-    for (int i = 0; i < 3; ++i)
-      for (int node = 0; node < 8; ++node) v[i][node] *= scale;
-    linear_cell_force(x, v, moduli, f);
-    double power = 0.0;
-    for (int i = 0; i < 3; ++i)
-      for (int node = 0; node < 8; ++node) {
-        power += v[i][node] * f[i][node];
-        v[i][node] = f[i][node] / mass[node];
-      }
-    const bool settled = std::abs(power - square) <= 1e-6 * power;
-    square = power;
-    if (settled) break;
-  }
-  for (int i = 0; i < 3; ++i)
-    for (int node = 0; node < 8; ++node) mode[8 * i + node] = v[i][node];
-  // Power iteration ends a little low.
-  frequency_[c] = std::sqrt(square) * (1.0 + 1e-4);
-  frequency_bulk_[c] = moduli.bulk;
-  strain_since_[c] = 0.0;
-  // The next start needs a share of every mode: the highest may have become another.
-  double largest = 0.0;
-  for (int k = 0; k < 24; ++k) largest = std::max(largest, std::abs(mode[k]));
-  for (int k = 0; k < 24; ++k) mode[k] = mode[k] / largest + 0.02 * std::sin(1.0 + 1.7 * k + 0.31 * k * k);
+std::vector<double> Elements::shares_at(const std::array<double, 3>& unit) const {
+  std::vector<double> shares(8, 1.0);
+  for (int q = 0; q < 8; ++q)
+    for (int d = 0; d < 3; ++d) {
+      const double low = reference_.point[0][d], high = reference_.point[7][d];
+      const double t = std::clamp((unit[d] - low) / (high - low), 0.0, 1.0);
+      shares[q] *= reference_.point[q][d] > 0.5 ? t : 1.0 - t;
+    }
+  return shares;
 }
-
-void Elements::set_critical_step(std::size_t c, double sound, double bulk) {
-  const double stiffening = std::max(1.0, std::sqrt(bulk / frequency_bulk_[c]));
-  const double frequency = frequency_[c] * stiffening * (1.0 + strain_since_[c]);
-  const double length = 2.0 * sound / frequency_[c];
-  const double damping =
-      linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c] / sound;
-  critical_step_[c] = 2.0 / frequency * (std::sqrt(1.0 + damping * damping) - damping);
-}
-
-double Elements::critical_step() const { return *std::min_element(critical_step_.begin(), critical_step_.end()); }
-
-std::size_t Elements::critical_cell() const {
-  return std::min_element(critical_step_.begin(), critical_step_.end()) - critical_step_.begin();
-}
-
-double Elements::elastic_energy() const { return sum(elastic_); }
-double Elements::plastic_work() const { return sum(plastic_); }
-double Elements::viscous_work() const { return sum(viscous_); }
 
 Mat3 Elements::stress(std::size_t cell, int q) const {
   const std::size_t at = 8 * cell + q;
@@ -406,11 +273,9 @@ std::size_t Elements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& component : deviator_) values += component.size();
   for (const auto* field : {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &viscous_pressure_, &energy_,
-                            &volume_, &elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,
-                            &critical_step_, &mode_, &cell_mass_, &corner_mass_, &nodal_mass_, &corner_force_})
+                            &volume_})
     values += field->size();
-  return values * sizeof(double) + cells_.size() * sizeof(cells_[0]) +
-         (corners_.size() + corners_begin_.size()) * sizeof(std::size_t);
+  return shared_memory_bytes() + values * sizeof(double);
 }
 
 }  // namespace undex::fem

@@ -52,15 +52,30 @@ struct PressureLoad {
   std::vector<double> pressure;  ///< [Pa]; held constant outside the table
 };
 
+/// Rigid half space that the body may touch and leave, without friction: its nodes stay on one side of a plane.
+struct RigidPlane {
+  int axis = 2;           ///< of its normal
+  double position = 0.0;  ///< [m]
+  bool body_above = true; ///< the nodes keep x[axis] >= position; else <=
+};
+
+enum class ElementKind {
+  hexahedron,  ///< full integration, one pressure a cell: for solid bodies
+  shell        ///< solid shell for thin walls, one cell through them (tube or plate)
+};
+
 struct Settings {
   std::string name = "structure";
   Mesh mesh;
+  ElementKind element = ElementKind::hexahedron;
+  int points_through = 5;                ///< of shells: Gauss points through the thickness of a cell, 2 to 10
   materials::Solid material;
   std::vector<Support> supports;
   std::vector<int> symmetry_axes;        ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh
                                          ///< from gmsh must already be that part)
   std::vector<std::string> wet_faces;    ///< faces that touch water
   std::vector<PressureLoad> loads;
+  std::vector<RigidPlane> planes;
   Vec3 initial_velocity = Vec3::Zero();  ///< [m/s]
   double courant = 0.8;                  ///< share of the computed stable step that is used, in (0, 1]
   double linear_viscosity = 0.06;        ///< bulk viscosity against ringing of shocks, on compression only

@@ -13,6 +13,7 @@
 #include "fem_structure/elements.hpp"
 #include "fem_structure/grid.hpp"
 #include "fem_structure/mistakes.hpp"
+#include "fem_structure/shell_elements.hpp"
 
 namespace undex::fem {
 namespace {
@@ -23,6 +24,19 @@ std::string listed(const Grid& grid) {
   std::string names;
   for (const auto& [name, quads] : grid.faces) names += (names.empty() ? "" : ", ") + name;
   return names.empty() ? "none" : names;
+}
+
+/// How far a point is beyond the plane [m]; negative on the body's side.
+double depth(const RigidPlane& plane, const Vec3& x) {
+  return plane.body_above ? plane.position - x[plane.axis] : x[plane.axis] - plane.position;
+}
+
+std::unique_ptr<ElementSet> make_elements(const Settings& settings, const Grid& grid) {
+  if (settings.element == ElementKind::hexahedron)
+    return std::make_unique<Elements>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity);
+  return std::make_unique<ShellElements>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity,
+                                         thickness_direction(settings.mesh, "structure '" + settings.name + "'"),
+                                         settings.points_through);
 }
 
 void check(const Settings& settings, const Grid& grid) {
@@ -53,9 +67,20 @@ void check(const Settings& settings, const Grid& grid) {
   mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ",
                    material.heat_capacity, " J/kg/K; it must be positive");
   mistakes.require(settings.initial_velocity.allFinite(), "the initial velocity is not finite");
+  mistakes.require(settings.points_through >= 2 && settings.points_through <= ShellElements::most_layers,
+                   "points_through = ", settings.points_through, "; give 2 to ", ShellElements::most_layers);
 
   double extent = 0.0;
   for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
+  for (const RigidPlane& plane : settings.planes) {
+    mistakes.require(plane.axis >= 0 && plane.axis <= 2 && std::isfinite(plane.position), "a rigid plane has axis ", plane.axis,
+                     " and position ", plane.position, " m; give axis 0, 1 or 2 and a finite position");
+    if (plane.axis < 0 || plane.axis > 2) continue;
+    double deepest = 0.0;
+    for (const Vec3& x : grid.nodes) deepest = std::max(deepest, depth(plane, x));
+    mistakes.require(deepest <= 1e-9 * extent, "the body begins ", deepest, " m beyond the rigid plane at ", plane.position,
+                     " m; move one of them, or take the plane's other side");
+  }
   for (int axis : settings.symmetry_axes) {
     if (axis < 0 || axis > 2) {
       mistakes.require(false, "symmetry axis ", axis, " does not exist; give 0, 1 or 2 (x, y, z)");
@@ -108,13 +133,15 @@ struct Structure::Implementation {
   Settings settings;
   Mesher mesher;
   const Grid& grid;
-  Elements elements;
+  std::unique_ptr<ElementSet> elements;
 
   // State, per node.
   std::vector<Vec3> position, velocity;
   double time = 0.0, last_step = 0.0;
   long steps = 0;
   double external_work = 0.0, integrator_jumps = 0.0, integrator_held = 0.0, first_critical_step = 0.0;
+  double impact_loss = 0.0;
+  Vec3 plane_impulse = Vec3::Zero();
 
   // What follows from the state, and scratch, per node.
   std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
@@ -128,11 +155,11 @@ struct Structure::Implementation {
       : settings(given),
         mesher(settings),
         grid((check(settings, mesher.grid()), mesher.grid())),
-        elements(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity) {
+        elements(make_elements(settings, grid)) {
     const std::size_t n = grid.nodes.size();
     position = grid.nodes;
     inverse_mass.resize(n);
-    for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements.nodal_mass()[i]);
+    for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements->nodal_mass()[i]);
     double extent = 0.0;
     for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
     for (int axis : settings.symmetry_axes)
@@ -150,7 +177,7 @@ struct Structure::Implementation {
     for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force})
       field->assign(n, Vec3::Zero());
     take_wet_surface();
-    first_critical_step = elements.critical_step();
+    first_critical_step = elements->critical_step();
     find_load_force();
     find_acceleration();
     show_wet_motion();
@@ -209,7 +236,7 @@ struct Structure::Implementation {
   double held_back(double dt) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < acceleration.size(); ++i)
-      sum += elements.nodal_mass()[i] * acceleration[i].squaredNorm();
+      sum += elements->nodal_mass()[i] * acceleration[i].squaredNorm();
     return dt * dt / 8.0 * sum;
   }
 
@@ -220,19 +247,37 @@ struct Structure::Implementation {
     return work;
   }
 
+  /// Nodes that would end the step of dt [s] beyond a rigid plane end it on the plane: a push, never a pull. A node that
+  /// rests there receives its load back and no work; one that arrives loses the kinetic energy of its motion into the plane.
+  void meet_planes(double dt) {
+    for (const RigidPlane& plane : settings.planes)
+      for (std::size_t i = 0; i < position.size(); ++i) {
+        double& v = velocity[i][plane.axis];
+        if (depth(plane, position[i] + dt * velocity[i]) <= 0.0 || inverse_mass[i][plane.axis] == 0.0) continue;
+        const double mass = elements->nodal_mass()[i], allowed = (plane.position - position[i][plane.axis]) / dt;
+        const double change = allowed - v;
+        plane_impulse[plane.axis] += mass * change;
+        // Work of the push with the mean of the half-step velocities before and after it.
+        impact_loss -= 0.5 * mass * change * (v + allowed - dt * acceleration[i][plane.axis]);
+        v = allowed;
+      }
+  }
+
   /// One step of central differences: kick, drift, new forces, kick. The two half kicks with their own forces make it
   /// exact for a step that varies: a(t) acts over half of either neighbouring step.
   void step(double dt) {
     const long n = static_cast<long>(position.size());
     integrator_jumps += held_back(dt) - integrator_held;
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
+    meet_planes(dt);
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i) {
-      velocity[i] += 0.5 * dt * acceleration[i];
       increment[i] = dt * velocity[i];
       position[i] += increment[i];
     }
     external_work += load_work();
-    const long failed = elements.advance(position, increment, dt, internal_force);
+    const long failed = elements->advance(position, increment, dt, internal_force);
     time += dt;
     ++steps;
     last_step = dt;
@@ -253,7 +298,7 @@ struct Structure::Implementation {
   }
 
   std::string owner() const {
-    const std::size_t cell = elements.critical_cell();
+    const std::size_t cell = elements->critical_cell();
     return "cell " + std::to_string(cell) + " of '" + settings.name + "', reference position " + written(center(cell));
   }
 
@@ -266,7 +311,7 @@ struct Structure::Implementation {
     throw NumericalStop(text.str());
   }
 
-  double stable_step() const { return settings.courant * elements.critical_step(); }
+  double stable_step() const { return settings.courant * elements->critical_step(); }
 
   void advance(double t_end, std::span<const Vec3> impulse) {
     if (!impulse.empty() && impulse.size() != wet_nodes.size())
@@ -286,7 +331,7 @@ struct Structure::Implementation {
     for (;;) {
       const double longest = stable_step();
       if (!(longest > 1e-4 * settings.courant * first_critical_step))
-        stop(elements.critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one");
+        stop(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one");
       const double left = t_end - time;
       const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-12)));
       step(left / count);
@@ -306,12 +351,12 @@ std::size_t Structure::cell_count() const { return self_->grid.cells.size(); }
 std::size_t Structure::node_count() const { return self_->grid.nodes.size(); }
 std::size_t Structure::memory_bytes() const {
   const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
-  std::size_t bytes = self_->elements.memory_bytes() + 9 * nodes * sizeof(Vec3);
+  std::size_t bytes = self_->elements->memory_bytes() + 9 * nodes * sizeof(Vec3);
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
   return bytes + wet * (4 * sizeof(Vec3) + sizeof(int)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }
 double Structure::total_mass() const {
-  const auto& mass = self_->elements.nodal_mass();
+  const auto& mass = self_->elements->nodal_mass();
   return std::accumulate(mass.begin(), mass.end(), 0.0);
 }
 double Structure::time() const { return self_->time; }
@@ -328,29 +373,32 @@ void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->ad
 
 Energies Structure::energies() const {
   Energies energies;
-  const auto& mass = self_->elements.nodal_mass();
+  const auto& mass = self_->elements->nodal_mass();
   for (std::size_t i = 0; i < mass.size(); ++i)
     energies.kinetic += 0.5 * mass[i] * self_->velocity[i].squaredNorm();
   energies.integrator = self_->integrator_jumps - self_->integrator_held;
-  energies.elastic = self_->elements.elastic_energy();
-  energies.plastic = self_->elements.plastic_work();
-  energies.viscous = self_->elements.viscous_work();
+  energies.elastic = self_->elements->elastic_energy();
+  energies.plastic = self_->elements->plastic_work();
+  energies.viscous = self_->elements->viscous_work();
   energies.external = self_->external_work;
+  energies.impact = self_->impact_loss;
   return energies;
 }
 
 Vec3 Structure::momentum() const {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < node_count(); ++i) sum += self_->elements.nodal_mass()[i] * self_->velocity[i];
+  for (std::size_t i = 0; i < node_count(); ++i) sum += self_->elements->nodal_mass()[i] * self_->velocity[i];
   return sum;
 }
 
 Vec3 Structure::angular_momentum() const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < node_count(); ++i)
-    sum += self_->elements.nodal_mass()[i] * self_->position[i].cross(self_->velocity[i]);
+    sum += self_->elements->nodal_mass()[i] * self_->position[i].cross(self_->velocity[i]);
   return sum;
 }
+
+Vec3 Structure::plane_impulse() const { return self_->plane_impulse; }
 
 namespace {
 
@@ -362,7 +410,7 @@ double von_mises(const Mat3& stress) {
 }  // namespace
 
 FieldView Structure::fields() const {
-  const Elements& elements = self_->elements;
+  const ElementSet& elements = *self_->elements;
   FieldView view;
   view.position = self_->position;
   view.velocity = self_->velocity;
@@ -373,10 +421,11 @@ FieldView Structure::fields() const {
     field->assign(cell_count(), 0.0);
   for (std::size_t c = 0; c < cell_count(); ++c) {
     view.pressure[c] = elements.pressure(c);
-    for (int q = 0; q < 8; ++q) {
-      view.von_mises[c] += von_mises(elements.stress(c, q)) / 8.0;
-      view.plastic_strain[c] += elements.plastic_strain(c, q) / 8.0;
-      view.temperature[c] += elements.temperature(c, q) / 8.0;
+    for (int q = 0; q < elements.points_per_cell(); ++q) {
+      const double share = elements.mean_share(q);
+      view.von_mises[c] += share * von_mises(elements.stress(c, q));
+      view.plastic_strain[c] += share * elements.plastic_strain(c, q);
+      view.temperature[c] += share * elements.temperature(c, q);
     }
   }
   return view;
@@ -397,18 +446,11 @@ Structure::ProbeValues Structure::read(const Probe& probe) const {
     values.velocity += shape[i] * self_->velocity[cell[i]];
     values.displacement += shape[i] * (self_->position[cell[i]] - self_->grid.nodes[cell[i]]);
   }
-  // Quadrature values are interpolated between the points and held constant outside them: extrapolated ones overshoot.
-  const ReferenceCell& reference = self_->grid.reference;
-  for (int q = 0; q < 8; ++q) {
-    double share = 1.0;
-    for (int d = 0; d < 3; ++d) {
-      const double low = reference.point[0][d], high = reference.point[7][d];
-      const double t = std::clamp((probe.unit[d] - low) / (high - low), 0.0, 1.0);
-      share *= reference.point[q][d] > 0.5 ? t : 1.0 - t;
-    }
-    values.stress += share * self_->elements.stress(probe.cell, q);
-    values.plastic_strain += share * self_->elements.plastic_strain(probe.cell, q);
-    values.temperature += share * self_->elements.temperature(probe.cell, q);
+  const auto shares = self_->elements->shares_at(probe.unit);
+  for (int q = 0; q < self_->elements->points_per_cell(); ++q) {
+    values.stress += shares[q] * self_->elements->stress(probe.cell, q);
+    values.plastic_strain += shares[q] * self_->elements->plastic_strain(probe.cell, q);
+    values.temperature += shares[q] * self_->elements->temperature(probe.cell, q);
   }
   return values;
 }

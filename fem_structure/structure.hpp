@@ -17,6 +17,7 @@ struct Energies {
   double kinetic = 0, elastic = 0, plastic = 0;
   double viscous = 0;   ///< bulk viscosity's dissipation
   double external = 0;  ///< work of impulses and pressure loads received
+  double impact = 0;    ///< kinetic energy of nodes lost as they hit rigid planes (vanishes with their mass)
   double reaction = 0;  ///< work of supports: zero for fixed ones, kept as a check
   /// What the time integrator has held back or made, a term of second order in the step that is known exactly: central
   /// differences conserve energy with the product of the two half-step velocities in place of the square of the mean,
@@ -24,7 +25,7 @@ struct Energies {
   double integrator = 0;
 
   /// Stays at its first value (the initial kinetic energy), but for what finite strain within a step leaves.
-  double balance() const { return kinetic + integrator + elastic + plastic + viscous - external - reaction; }
+  double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - external - reaction; }
 };
 
 /// Fields at the cells' centres (averages over the quadrature points) and at the nodes, for output and probes.
@@ -72,6 +73,7 @@ class Structure {
   Energies energies() const;
   Vec3 momentum() const;          ///< [kg m/s]
   Vec3 angular_momentum() const;  ///< about the origin [kg m^2/s]
+  Vec3 plane_impulse() const;     ///< received from the rigid planes since the start [N s]
   FieldView fields() const;
 
   /// A material point on the mesh, found once by its reference position [m] (nearest point of the mesh; `distance` tells

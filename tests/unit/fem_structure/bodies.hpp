@@ -35,10 +35,8 @@ inline Settings plate(const Vec3& low, const Vec3& high, std::array<int, 3> cell
   return settings;
 }
 
-/// Moves the nodes off their places by up to `size` [m], reproducibly, and takes the cells' volumes anew.
-inline void distort(Grid& grid, double size) {
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    for (int d = 0; d < 3; ++d) grid.nodes[i][d] += size * std::sin(12.9 * (i + 1) + 78.2 * (d + 1));
+/// Takes the cells' volumes anew, after nodes have been moved.
+inline void take_volumes(Grid& grid) {
   for (std::size_t c = 0; c < grid.cells.size(); ++c) {
     grid.nodal_volume[c].fill(0.0);
     for (int q = 0; q < 8; ++q) {
@@ -51,6 +49,20 @@ inline void distort(Grid& grid, double size) {
             grid.reference.value[i][q] * grid.reference.weight[q] * jacobian.determinant();
     }
   }
+}
+
+/// Moves the nodes off their places by up to `size` [m], reproducibly.
+inline void distort(Grid& grid, double size) {
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+    for (int d = 0; d < 3; ++d) grid.nodes[i][d] += size * std::sin(12.9 * (i + 1) + 78.2 * (d + 1));
+  take_volumes(grid);
+}
+
+/// Moves every node to map(its place).
+template <class Map>
+void remap(Grid& grid, const Map& map) {
+  for (Vec3& x : grid.nodes) x = map(x);
+  take_volumes(grid);
 }
 
 inline Grid distorted_block(std::array<int, 3> cells, double size) {

@@ -1,0 +1,185 @@
+#include "fem_structure/element_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace undex::fem {
+namespace {
+
+// Cells below this count are not worth waking threads for.
+constexpr std::size_t worth_threads = 512;
+// A cell that has strained by this much gets its highest frequency anew.
+constexpr double frequency_strain = 0.01;
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+ElementSet::ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity,
+                       double quadratic_viscosity)
+    : material_(material),
+      linear_viscosity_(linear_viscosity),
+      quadratic_viscosity_(quadratic_viscosity),
+      cells_(grid.cells) {
+  const std::size_t n = cells_.size();
+  for (auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_,
+                      &compression_rate_, &critical_step_, &cell_mass_})
+    field->assign(n, 0.0);
+  corner_force_.assign(24 * n, 0.0);
+  mode_.resize(24 * n);
+  corner_mass_.resize(8 * n);
+  nodal_mass_.assign(grid.nodes.size(), 0.0);
+
+  std::vector<std::size_t> count(grid.nodes.size() + 1, 0);
+  for (const auto& cell : cells_)
+    for (int node : cell) ++count[node + 1];
+  std::partial_sum(count.begin(), count.end(), count.begin());
+  corners_begin_ = count;
+  corners_.resize(8 * n);
+  for (std::size_t c = 0; c < n; ++c)
+    for (int i = 0; i < 8; ++i) corners_[count[cells_[c][i]]++] = 8 * c + i;
+
+  for (std::size_t c = 0; c < n; ++c)
+    for (int i = 0; i < 8; ++i) {
+      corner_mass_[8 * c + i] = material.rho0 * grid.nodal_volume[c][i];
+      cell_mass_[c] += corner_mass_[8 * c + i];
+      nodal_mass_[cells_[c][i]] += corner_mass_[8 * c + i];
+    }
+}
+
+void ElementSet::find_first_steps(const Grid& grid) {
+  const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
+  const Moduli moduli{material_.rho0 * rest.bulk_sound * rest.bulk_sound, 2.0 * material_.shear_modulus};
+  const double sound = std::sqrt((moduli.bulk + 2.0 / 3.0 * moduli.twice_shear) / material_.rho0);
+#pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    CellVectors x;
+    collect(grid.nodes, cells_[c], x);
+    // A start that no symmetry of the cell can hide from.
+    for (int k = 0; k < 24; ++k) mode_[24 * c + k] = std::sin(1.0 + 1.7 * k + 0.31 * k * k);
+    find_frequency(c, x, moduli, 400);
+    set_critical_step(c, sound, moduli.bulk);
+  }
+}
+
+long ElementSet::advance(std::span<const Vec3> x, std::span<const Vec3> u, double dt, std::span<Vec3> force) {
+  const long n = static_cast<long>(cells_.size());
+  long failed = n;
+#pragma omp parallel for schedule(static) reduction(min : failed) if (cells_.size() > worth_threads)
+  for (long c = 0; c < n; ++c)
+    if (!advance_cell(c, x, u, dt)) failed = std::min(failed, c);
+  gather(corner_force_, force);
+  return failed == n ? -1 : failed;
+}
+
+void ElementSet::put_forces(std::size_t c, const CellVectors& force) {
+  double* out = &corner_force_[24 * c];
+  for (int node = 0; node < 8; ++node)
+    for (int i = 0; i < 3; ++i) out[3 * node + i] = force[i][node];
+}
+
+void ElementSet::gather(const std::vector<double>& corner_force, std::span<Vec3> force) const {
+  const long nodes = static_cast<long>(nodal_mass_.size());
+#pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
+  for (long node = 0; node < nodes; ++node) {
+    Vec3 sum_of_cells = Vec3::Zero();
+    for (std::size_t k = corners_begin_[node]; k < corners_begin_[node + 1]; ++k)
+      sum_of_cells += Eigen::Map<const Vec3>(&corner_force[3 * corners_[k]]);
+    force[node] = sum_of_cells;
+  }
+}
+
+double ElementSet::viscous_pressure(std::size_t c, double rate, double density, double sound) {
+  const double length = 2.0 * sound / frequency_[c];  // the cell's shortest extent, as its highest mode sees it
+  compression_rate_[c] = std::max(0.0, -rate);
+  return density * length * compression_rate_[c] *
+         (linear_viscosity_ * sound + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c]);
+}
+
+void ElementSet::follow_frequency(std::size_t c, const CellVectors& x, double most_strain, double sound, double bulk) {
+  strain_since_[c] += most_strain;
+  if (strain_since_[c] > frequency_strain) find_frequency(c, x, {bulk, 2.0 * material_.shear_modulus}, 20);
+  set_critical_step(c, sound, bulk);
+}
+
+void ElementSet::linear_force(std::span<const Vec3> positions, std::span<const Vec3> displacements,
+                            std::span<Vec3> force) const {
+  std::vector<double> corner_force(24 * cells_.size());
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    CellVectors x, u, f;
+    collect(positions, cells_[c], x);
+    collect(displacements, cells_[c], u);
+    linear_cell_force(x, u, moduli(c), f);
+    for (int node = 0; node < 8; ++node)
+      for (int i = 0; i < 3; ++i) corner_force[24 * c + 3 * node + i] = f[i][node];
+  }
+  gather(corner_force, force);
+}
+
+void ElementSet::find_frequency(std::size_t c, const CellVectors& x, Moduli moduli, int most_iterations) {
+  double* mode = &mode_[24 * c];
+  const double* mass = &corner_mass_[8 * c];
+  CellVectors v, f;
+  for (int i = 0; i < 3; ++i)
+    for (int node = 0; node < 8; ++node) v[i][node] = mode[8 * i + node];
+  double square = 0.0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    double norm = 0.0;
+    for (int i = 0; i < 3; ++i)
+      for (int node = 0; node < 8; ++node) norm += mass[node] * v[i][node] * v[i][node];
+    const double scale = 1.0 / std::sqrt(norm);
+    for (int i = 0; i < 3; ++i)
+      for (int node = 0; node < 8; ++node) v[i][node] *= scale;
+    linear_cell_force(x, v, moduli, f);
+    double power = 0.0;
+    for (int i = 0; i < 3; ++i)
+      for (int node = 0; node < 8; ++node) {
+        power += v[i][node] * f[i][node];
+        v[i][node] = f[i][node] / mass[node];
+      }
+    const bool settled = std::abs(power - square) <= 1e-6 * power;
+    square = power;
+    if (settled) break;
+  }
+  for (int i = 0; i < 3; ++i)
+    for (int node = 0; node < 8; ++node) mode[8 * i + node] = v[i][node];
+  // Power iteration ends a little low.
+  frequency_[c] = std::sqrt(square) * (1.0 + 1e-4);
+  frequency_bulk_[c] = moduli.bulk;
+  strain_since_[c] = 0.0;
+  // The next start needs a share of every mode: the highest may have become another.
+  double largest = 0.0;
+  for (int k = 0; k < 24; ++k) largest = std::max(largest, std::abs(mode[k]));
+  for (int k = 0; k < 24; ++k) mode[k] = mode[k] / largest + 0.02 * std::sin(1.0 + 1.7 * k + 0.31 * k * k);
+}
+
+void ElementSet::set_critical_step(std::size_t c, double sound, double bulk) {
+  const double stiffening = std::max(1.0, std::sqrt(bulk / frequency_bulk_[c]));
+  const double frequency = frequency_[c] * stiffening * (1.0 + strain_since_[c]);
+  const double length = 2.0 * sound / frequency_[c];
+  const double damping =
+      linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c] / sound;
+  critical_step_[c] = 2.0 / frequency * (std::sqrt(1.0 + damping * damping) - damping);
+}
+
+double ElementSet::critical_step() const { return *std::min_element(critical_step_.begin(), critical_step_.end()); }
+
+std::size_t ElementSet::critical_cell() const {
+  return std::min_element(critical_step_.begin(), critical_step_.end()) - critical_step_.begin();
+}
+
+double ElementSet::elastic_energy() const { return sum(elastic_); }
+double ElementSet::plastic_work() const { return sum(plastic_); }
+double ElementSet::viscous_work() const { return sum(viscous_); }
+
+std::size_t ElementSet::shared_memory_bytes() const {
+  std::size_t values = 0;
+  for (const auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,
+                            &critical_step_, &mode_, &cell_mass_, &corner_mass_, &nodal_mass_, &corner_force_})
+    values += field->size();
+  return values * sizeof(double) + cells_.size() * sizeof(cells_[0]) +
+         (corners_.size() + corners_begin_.size()) * sizeof(std::size_t);
+}
+
+}  // namespace undex::fem

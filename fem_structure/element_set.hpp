@@ -1,0 +1,108 @@
+// What every kind of element shares: cells and their lumped masses, energies, stable steps, and the sum of the cells'
+// forces at the nodes. A kind of element adds its strains and stresses.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/vector.hpp"
+#include "fem_structure/grid.hpp"
+#include "materials/solid.hpp"
+
+namespace undex::fem {
+
+/// All cells of a structure, of one kind of element, with their state.
+class ElementSet {
+ public:
+  virtual ~ElementSet() = default;
+
+  /// Takes the cells from positions x - u [m] to x over dt [s] and leaves at the nodes the internal force [N] (the one
+  /// that resists: m a = external - force) at the new positions. Returns the index of the first cell that inverted or
+  /// is not finite, or -1. The result does not depend on the number of threads.
+  long advance(std::span<const Vec3> x, std::span<const Vec3> u, double dt, std::span<Vec3> force);
+
+  /// Stable step [s] of central differences in each cell, 2/omega (sqrt(1 + xi^2) - xi), and the least of them. omega is
+  /// the highest frequency of the free cell with its lumped mass, which bounds that of any assembly (Irons); it is kept
+  /// by warm power iterations that restart when the cell has strained by a per cent.
+  double critical_step() const;
+  std::size_t critical_cell() const;
+
+  std::size_t cell_count() const { return cells_.size(); }
+  const std::vector<double>& nodal_mass() const { return nodal_mass_; }  ///< lumped [kg]
+
+  double elastic_energy() const;  ///< [J]
+  double plastic_work() const;    ///< [J]
+  double viscous_work() const;    ///< [J]
+
+  virtual int points_per_cell() const = 0;
+  /// Share of a cell's volume that a quadrature point stands for, in the reference cell; they sum to one.
+  virtual double mean_share(int q) const = 0;
+  /// Weights of the quadrature points at unit coordinates of the grid's cell: their values are interpolated between the
+  /// points and held constant outside them, for extrapolated ones overshoot.
+  virtual std::vector<double> shares_at(const std::array<double, 3>& unit) const = 0;
+  /// Cauchy stress [Pa] at a quadrature point, without bulk viscosity.
+  virtual Mat3 stress(std::size_t cell, int q) const = 0;
+  virtual double pressure(std::size_t cell) const = 0;  ///< mean over the cell [Pa]
+  virtual double plastic_strain(std::size_t cell, int q) const = 0;
+  virtual double temperature(std::size_t cell, int q) const = 0;  ///< [K]
+  /// Share of the fracture strain spent, 1: failed; 0 where the material cannot fail.
+  virtual double damage(std::size_t cell, int q) const = 0;
+  virtual std::size_t memory_bytes() const = 0;
+
+  /// Internal force [N] of a small displacement u [m] from positions x by the elastic law alone: the linear stiffness,
+  /// for the highest frequency and for tests.
+  void linear_force(std::span<const Vec3> x, std::span<const Vec3> u, std::span<Vec3> force) const;
+
+ protected:
+  struct Moduli {
+    double bulk, twice_shear;  ///< [Pa]
+  };
+  using CellVectors = double[3][8];  ///< [component][node]
+
+  ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity);
+  /// For the constructors of the kinds, when their state is that of the start.
+  void find_first_steps(const Grid& grid);
+
+  /// One cell of `advance`: leaves its forces in corner_force_; false where it inverted or is not finite.
+  virtual bool advance_cell(std::size_t cell, std::span<const Vec3> x, std::span<const Vec3> u, double dt) = 0;
+  virtual void linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const = 0;
+  virtual Moduli moduli(std::size_t cell) const = 0;  ///< elastic, in the cell's present state
+
+  /// Bulk viscosity's pressure [Pa] at a rate of volume change [1/s] (kept for the stable step).
+  double viscous_pressure(std::size_t cell, double rate, double density, double sound);
+  /// Stable step after a step of strain `most_strain`: the highest frequency is found anew when the cell has changed,
+  /// otherwise enlarged by what the strain since may have done.
+  void follow_frequency(std::size_t cell, const CellVectors& x, double most_strain, double sound, double bulk);
+  void put_forces(std::size_t cell, const CellVectors& force);
+  std::size_t shared_memory_bytes() const;
+
+  materials::Solid material_;
+  double linear_viscosity_, quadratic_viscosity_;
+  std::vector<std::array<int, 8>> cells_;
+  std::vector<double> elastic_, plastic_, viscous_;           ///< energies per cell [J]
+  std::vector<double> cell_mass_, corner_mass_, nodal_mass_;  ///< [kg]
+
+ private:
+  void find_frequency(std::size_t cell, const CellVectors& x, Moduli moduli, int most_iterations);
+  void set_critical_step(std::size_t cell, double sound, double bulk);
+  void gather(const std::vector<double>& corner_force, std::span<Vec3> force) const;
+
+  std::vector<std::size_t> corners_begin_;  ///< per node, into corners_
+  std::vector<std::size_t> corners_;        ///< 8 cell + corner of every cell at the node
+  std::vector<double> frequency_, frequency_bulk_, strain_since_, compression_rate_, critical_step_;  ///< per cell
+  std::vector<double> mode_;  ///< [24] per cell, the cell's highest mode
+  // Scratch: force of every cell on its corners, [24] per cell.
+  std::vector<double> corner_force_;
+};
+
+/// The values of a cell's nodes, in the cell's order.
+inline void collect(std::span<const Vec3> from, const std::array<int, 8>& cell, double (&to)[3][8]) {
+  for (int node = 0; node < 8; ++node) {
+    const Vec3& value = from[cell[node]];
+    for (int i = 0; i < 3; ++i) to[i][node] = value[i];
+  }
+}
+
+}  // namespace undex::fem

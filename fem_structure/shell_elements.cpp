@@ -1,0 +1,552 @@
+#include "fem_structure/shell_elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace undex::fem {
+namespace {
+
+constexpr int most_batches = ShellElements::most_layers / 2;
+constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+
+/// Bilinear functions of the mid-surface at the 2x2 points in the plane, for both layers of a batch; xi, eta in [-1, 1].
+struct PlaneRule {
+  materials::EightPoints xi, eta, value[4], along_xi[4], along_eta[4];
+
+  PlaneRule() {
+    for (int q = 0; q < 8; ++q) {
+      xi[q] = (q & 1 ? 1.0 : -1.0) / std::numbers::sqrt3;
+      eta[q] = (q & 2 ? 1.0 : -1.0) / std::numbers::sqrt3;
+      for (int a = 0; a < 4; ++a) {
+        const double sx = corner[a][0] ? 1.0 : -1.0, sy = corner[a][1] ? 1.0 : -1.0;
+        value[a][q] = 0.25 * (1 + sx * xi[q]) * (1 + sy * eta[q]);
+        along_xi[a][q] = 0.25 * sx * (1 + sy * eta[q]);
+        along_eta[a][q] = 0.25 * sy * (1 + sx * xi[q]);
+      }
+    }
+  }
+};
+const PlaneRule plane;
+
+/// Gauss points and weights on [-1, 1], by Newton's steps on the Legendre polynomial.
+void gauss(int n, std::vector<double>& point, std::vector<double>& weight) {
+  for (int i = 0; i < n; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      double p = 1.0, before = 0.0;
+      for (int k = 1; k <= n; ++k) {
+        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
+        before = p;
+        p = next;
+      }
+      slope = n * (x * p - before) / (x * x - 1.0);
+      x -= p / slope;
+    }
+    point[i] = 2 * i + 1 == n ? 0.0 : x;
+    weight[i] = 2.0 / ((1.0 - x * x) * slope * slope);
+  }
+  // Odd moments must vanish to the last digit: the enhanced strain is orthogonal to constant stress by them.
+  for (int i = 0; i < n / 2; ++i) {
+    point[n - 1 - i] = -point[i];
+    weight[n - 1 - i] = weight[i];
+  }
+}
+
+double dot(const double (&a)[3], const double (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+}  // namespace
+
+int thickness_direction(const Mesh& mesh, const std::string& who) {
+  if (std::holds_alternative<TubeMesh>(mesh)) return 0;  // the blocks of a tube count the cells through its wall first
+  if (const auto* plate = std::get_if<PlateMesh>(&mesh)) {
+    int thinnest = 0;
+    for (int d = 1; d < 3; ++d)
+      if (plate->high[d] - plate->low[d] < plate->high[thinnest] - plate->low[thinnest]) thinnest = d;
+    return thinnest;
+  }
+  throw std::invalid_argument(who + ": shell elements need a wall whose thickness direction is known, that of a tube or a "
+                              "plate; use hexahedra for a rod or a gmsh mesh");
+}
+
+/// A vector field on a cell (positions or displacements) as mid-surface m and director d: x = m + zeta d, zeta in [-1, 1].
+/// At the points in the plane: derivatives of m and d; at the corners and the middles of the edges: the samples.
+struct ShellElements::Surface {
+  Lanes m_xi[3], m_eta[3], d[3], d_xi[3], d_eta[3];
+  double corner_d[4][3];
+  /// Edges at eta = -1, +1 (derivative along xi), then xi = -1, +1 (along eta).
+  double edge_m[4][3], edge_d[4][3];
+
+  explicit Surface(const CellVectors& v) {
+    constexpr int begin[4] = {0, 3, 0, 1}, end[4] = {1, 2, 3, 2};
+    for (int i = 0; i < 3; ++i) {
+      double middle[4];
+      for (int a = 0; a < 4; ++a) {
+        middle[a] = 0.5 * (v[i][a + 4] + v[i][a]);
+        corner_d[a][i] = 0.5 * (v[i][a + 4] - v[i][a]);
+      }
+      for (int edge = 0; edge < 4; ++edge) {
+        edge_m[edge][i] = 0.5 * (middle[end[edge]] - middle[begin[edge]]);
+        edge_d[edge][i] = 0.5 * (corner_d[end[edge]][i] + corner_d[begin[edge]][i]);
+      }
+      for (int q = 0; q < 8; ++q) m_xi[i][q] = m_eta[i][q] = d[i][q] = d_xi[i][q] = d_eta[i][q] = 0.0;
+      for (int a = 0; a < 4; ++a)
+        for (int q = 0; q < 8; ++q) {
+          m_xi[i][q] += middle[a] * plane.along_xi[a][q];
+          m_eta[i][q] += middle[a] * plane.along_eta[a][q];
+          d[i][q] += corner_d[a][i] * plane.value[a][q];
+          d_xi[i][q] += corner_d[a][i] * plane.along_xi[a][q];
+          d_eta[i][q] += corner_d[a][i] * plane.along_eta[a][q];
+        }
+    }
+  }
+};
+
+/// At all points: zeta, contravariant base (rows), weights; and for the enhanced strain its shape, zeta j(0)/j(zeta), and
+/// the unit normal of the mid-surface.
+struct ShellElements::Geometry {
+  Lanes zeta[most_batches], inverse[most_batches][3][3], weight[most_batches], shape[most_batches];
+  Lanes normal[3];
+};
+
+ShellElements::ShellElements(const Grid& grid, const materials::Solid& material, double linear_viscosity,
+                             double quadratic_viscosity, int through, int layers)
+    : ElementSet(grid, material, linear_viscosity, quadratic_viscosity),
+      layers_(layers),
+      batches_((layers + 1) / 2),
+      through_(through),
+      layer_zeta_(2 * batches_, 0.0),
+      layer_weight_(2 * batches_, 0.0) {
+  if (layers < 2 || layers > most_layers)
+    throw std::invalid_argument("points_through = " + std::to_string(layers) + "; give 2 to " + std::to_string(most_layers));
+  gauss(layers, layer_zeta_, layer_weight_);
+  for (int local = 0; local < 8; ++local)
+    for (int node = 0; node < 8; ++node)
+      if (corner[node][(through + 1) % 3] == corner[local][0] && corner[node][(through + 2) % 3] == corner[local][1] &&
+          corner[node][through] == corner[local][2])
+        order_[local] = node;
+
+  const std::size_t n = cells_.size(), points = 8 * batches_ * n, all_layers = 2 * batches_ * n;
+  for (auto& field : deviator_) field.assign(points, 0.0);
+  plastic_strain_.assign(points, 0.0);
+  temperature_.assign(points, material.T_room);
+  weight_.resize(points);
+  const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
+  pressure_.assign(all_layers, rest.pressure);
+  energy_.assign(all_layers, 0.0);
+  dilatation_.assign(all_layers, 1.0);
+  viscous_pressure_.assign(n, 0.0);
+  residual_.assign(n, 0.0);
+  bulk_.assign(n, material_.rho0 * rest.bulk_sound * rest.bulk_sound);
+  for (std::size_t c = 0; c < n; ++c) {
+    CellVectors positions, x;
+    collect(grid.nodes, cells_[c], positions);
+    turn_in(positions, x);
+    Geometry geometry;
+    find_geometry(Surface(x), geometry);
+    for (int b = 0; b < batches_; ++b)
+      for (int q = 0; q < 8; ++q) weight_[at(c, 8 * b + q)] = geometry.weight[b][q];
+  }
+  find_first_steps(grid);
+}
+
+void ShellElements::turn_in(const CellVectors& cell, CellVectors& local) const {
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < 8; ++a) local[i][a] = cell[i][order_[a]];
+}
+
+void ShellElements::turn_out(const CellVectors& local, CellVectors& cell) const {
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < 8; ++a) cell[i][order_[a]] = local[i][a];
+}
+
+bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
+  Lanes middle;  // determinant on the mid-surface
+  for (int q = 0; q < 8; ++q) {
+    double n[3];
+    for (int i = 0; i < 3; ++i)
+      n[i] = x.m_xi[(i + 1) % 3][q] * x.m_eta[(i + 2) % 3][q] - x.m_xi[(i + 2) % 3][q] * x.m_eta[(i + 1) % 3][q];
+    middle[q] = n[0] * x.d[0][q] + n[1] * x.d[1][q] + n[2] * x.d[2][q];
+    const double over = 1.0 / std::sqrt(dot(n, n));
+    for (int i = 0; i < 3; ++i) geometry.normal[i][q] = over * n[i];
+  }
+  bool sound = true;
+  for (int b = 0; b < batches_; ++b) {
+    auto& inverse = geometry.inverse[b];
+    for (int q = 0; q < 8; ++q) {
+      const double zeta = layer_zeta_[2 * b + q / 4];
+      double g[3][3];  // covariant base
+      for (int i = 0; i < 3; ++i) {
+        g[0][i] = x.m_xi[i][q] + zeta * x.d_xi[i][q];
+        g[1][i] = x.m_eta[i][q] + zeta * x.d_eta[i][q];
+        g[2][i] = x.d[i][q];
+      }
+      double cross[3][3];
+      for (int k = 0; k < 3; ++k) {
+        const double(&a)[3] = g[(k + 1) % 3];
+        const double(&c)[3] = g[(k + 2) % 3];
+        cross[k][0] = a[1] * c[2] - a[2] * c[1];
+        cross[k][1] = a[2] * c[0] - a[0] * c[2];
+        cross[k][2] = a[0] * c[1] - a[1] * c[0];
+      }
+      const double determinant = dot(g[0], cross[0]), over = 1.0 / determinant;
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i) inverse[k][i][q] = over * cross[k][i];
+      geometry.zeta[b][q] = zeta;
+      geometry.weight[b][q] = layer_weight_[2 * b + q / 4] * determinant;
+      geometry.shape[b][q] = zeta * middle[q] * over;
+      sound &= determinant > 0.0 && std::isfinite(determinant);
+    }
+  }
+  return sound;
+}
+
+void ShellElements::find_strain(const Surface& x, const Surface& u, const Geometry& geometry, Lanes (*strain)[6]) const {
+  double thickness[4], shear[4];
+  for (int a = 0; a < 4; ++a) {
+    thickness[a] = dot(x.corner_d[a], u.corner_d[a]);
+    shear[a] = 0.5 * (dot(x.edge_m[a], u.edge_d[a]) + dot(x.edge_d[a], u.edge_m[a]));
+  }
+  Lanes e33, e13, e23;  // constant through the thickness
+  for (int q = 0; q < 8; ++q) {
+    e33[q] = 0.0;
+    for (int a = 0; a < 4; ++a) e33[q] += thickness[a] * plane.value[a][q];
+    e13[q] = 0.5 * ((1 - plane.eta[q]) * shear[0] + (1 + plane.eta[q]) * shear[1]);
+    e23[q] = 0.5 * ((1 - plane.xi[q]) * shear[2] + (1 + plane.xi[q]) * shear[3]);
+  }
+  for (int b = 0; b < batches_; ++b) {
+    const auto& inverse = geometry.inverse[b];
+    for (int q = 0; q < 8; ++q) {
+      const double zeta = geometry.zeta[b][q];
+      double e11 = 0.0, e22 = 0.0, e12 = 0.0;
+      for (int i = 0; i < 3; ++i) {
+        const double g1 = x.m_xi[i][q] + zeta * x.d_xi[i][q], g2 = x.m_eta[i][q] + zeta * x.d_eta[i][q];
+        const double u1 = u.m_xi[i][q] + zeta * u.d_xi[i][q], u2 = u.m_eta[i][q] + zeta * u.d_eta[i][q];
+        e11 += g1 * u1;
+        e22 += g2 * u2;
+        e12 += 0.5 * (g1 * u2 + g2 * u1);
+      }
+      double m[3][3];  // sum over j of E_ij g^j
+      for (int i = 0; i < 3; ++i) {
+        m[0][i] = e11 * inverse[0][i][q] + e12 * inverse[1][i][q] + e13[q] * inverse[2][i][q];
+        m[1][i] = e12 * inverse[0][i][q] + e22 * inverse[1][i][q] + e23[q] * inverse[2][i][q];
+        m[2][i] = e13[q] * inverse[0][i][q] + e23[q] * inverse[1][i][q] + e33[q] * inverse[2][i][q];
+      }
+      const auto full = [&](int i, int j) {
+        return inverse[0][i][q] * m[0][j] + inverse[1][i][q] * m[1][j] + inverse[2][i][q] * m[2][j];
+      };
+      strain[b][0][q] = full(0, 0);
+      strain[b][1][q] = full(1, 1);
+      strain[b][2][q] = full(2, 2);
+      strain[b][3][q] = full(1, 2);
+      strain[b][4][q] = full(2, 0);
+      strain[b][5][q] = full(0, 1);
+    }
+  }
+}
+
+double ShellElements::enhance(const Geometry& geometry, Moduli moduli, double residual, Lanes (*strain)[6]) const {
+  const Lanes(&n)[3] = geometry.normal;
+  double own = 0.0;
+  for (int b = 0; b < batches_; ++b)
+    for (int layer = 0; layer < 2; ++layer) {
+      double volume = 0.0, opened = 0.0, lever = 0.0;
+      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+        const double trace = strain[b][0][q] + strain[b][1][q] + strain[b][2][q];
+        const double along = n[0][q] * (n[0][q] * strain[b][0][q] + 2 * n[1][q] * strain[b][5][q]) +
+                             n[1][q] * (n[1][q] * strain[b][1][q] + 2 * n[2][q] * strain[b][3][q]) +
+                             n[2][q] * (n[2][q] * strain[b][2][q] + 2 * n[0][q] * strain[b][4][q]);
+        const double w = geometry.weight[b][q], shape = geometry.shape[b][q];
+        volume += w;
+        opened += w * trace;
+        lever += w * shape;
+        residual += w * shape * moduli.twice_shear * (along - trace / 3.0);
+        own += w * shape * shape * moduli.twice_shear * (2.0 / 3.0);
+      }
+      if (volume == 0.0) continue;  // an empty layer
+      residual += moduli.bulk * lever * opened / volume;
+      own += moduli.bulk * lever * lever / volume;
+    }
+  const double amplitude = -residual / own;
+  for (int b = 0; b < batches_; ++b)
+    for (int q = 0; q < 8; ++q) {
+      const double size = amplitude * geometry.shape[b][q];
+      strain[b][0][q] += size * n[0][q] * n[0][q];
+      strain[b][1][q] += size * n[1][q] * n[1][q];
+      strain[b][2][q] += size * n[2][q] * n[2][q];
+      strain[b][3][q] += size * n[1][q] * n[2][q];
+      strain[b][4][q] += size * n[2][q] * n[0][q];
+      strain[b][5][q] += size * n[0][q] * n[1][q];
+    }
+  return amplitude;
+}
+
+double ShellElements::residual_of(const Geometry& geometry, const Lanes (*stress)[6]) const {
+  const Lanes(&n)[3] = geometry.normal;
+  double residual = 0.0;
+  for (int b = 0; b < batches_; ++b)
+    for (int q = 0; q < 8; ++q)
+      residual += geometry.weight[b][q] * geometry.shape[b][q] *
+                  (n[0][q] * (n[0][q] * stress[b][0][q] + 2 * n[1][q] * stress[b][5][q]) +
+                   n[1][q] * (n[1][q] * stress[b][1][q] + 2 * n[2][q] * stress[b][3][q]) +
+                   n[2][q] * (n[2][q] * stress[b][2][q] + 2 * n[0][q] * stress[b][4][q]));
+  return residual;
+}
+
+void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lanes (*stress)[6], CellVectors& force) const {
+  Lanes on_m_xi[3] = {}, on_m_eta[3] = {}, on_d_xi[3] = {}, on_d_eta[3] = {};
+  Lanes s13 = {}, s23 = {}, s33 = {};
+  for (int b = 0; b < batches_; ++b) {
+    const auto& inverse = geometry.inverse[b];
+    for (int q = 0; q < 8; ++q) {
+      const double zeta = geometry.zeta[b][q], w = geometry.weight[b][q];
+      double m[3][3];  // g^k . sigma, times weight
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i)
+          m[k][i] = w * (inverse[k][0][q] * stress[b][component[0][i]][q] + inverse[k][1][q] * stress[b][component[1][i]][q] +
+                         inverse[k][2][q] * stress[b][component[2][i]][q]);
+      const auto contravariant = [&](int k, int l) {
+        return m[k][0] * inverse[l][0][q] + m[k][1] * inverse[l][1][q] + m[k][2] * inverse[l][2][q];
+      };
+      const double s11 = contravariant(0, 0), s22 = contravariant(1, 1), s12 = contravariant(0, 1);
+      s13[q] += contravariant(0, 2);
+      s23[q] += contravariant(1, 2);
+      s33[q] += contravariant(2, 2);
+      for (int i = 0; i < 3; ++i) {
+        const double g1 = x.m_xi[i][q] + zeta * x.d_xi[i][q], g2 = x.m_eta[i][q] + zeta * x.d_eta[i][q];
+        const double along_xi = s11 * g1 + s12 * g2, along_eta = s12 * g1 + s22 * g2;
+        on_m_xi[i][q] += along_xi;
+        on_m_eta[i][q] += along_eta;
+        on_d_xi[i][q] += zeta * along_xi;
+        on_d_eta[i][q] += zeta * along_eta;
+      }
+    }
+  }
+  double thickness[4] = {}, shear[4] = {};
+  for (int q = 0; q < 8; ++q) {
+    for (int a = 0; a < 4; ++a) thickness[a] += s33[q] * plane.value[a][q];
+    shear[0] += 0.5 * (1 - plane.eta[q]) * s13[q];
+    shear[1] += 0.5 * (1 + plane.eta[q]) * s13[q];
+    shear[2] += 0.5 * (1 - plane.xi[q]) * s23[q];
+    shear[3] += 0.5 * (1 + plane.xi[q]) * s23[q];
+  }
+  constexpr int begin[4] = {0, 3, 0, 1}, end[4] = {1, 2, 3, 2};
+  for (int i = 0; i < 3; ++i) {
+    double on_middle[4], on_director[4];
+    for (int a = 0; a < 4; ++a) {
+      Lanes middle, director;
+      for (int q = 0; q < 8; ++q) {
+        middle[q] = on_m_xi[i][q] * plane.along_xi[a][q] + on_m_eta[i][q] * plane.along_eta[a][q];
+        director[q] = on_d_xi[i][q] * plane.along_xi[a][q] + on_d_eta[i][q] * plane.along_eta[a][q];
+      }
+      const auto total = [](const Lanes& v) { return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7])); };
+      on_middle[a] = total(middle);
+      on_director[a] = total(director) + thickness[a] * x.corner_d[a][i];
+    }
+    // Power of an edge's sample: 2 S E = S (m' . d_u + d . m'_u).
+    for (int edge = 0; edge < 4; ++edge) {
+      const double turned = 0.5 * shear[edge] * x.edge_m[edge][i], sheared = 0.5 * shear[edge] * x.edge_d[edge][i];
+      on_director[begin[edge]] += turned;
+      on_director[end[edge]] += turned;
+      on_middle[begin[edge]] -= sheared;
+      on_middle[end[edge]] += sheared;
+    }
+    for (int a = 0; a < 4; ++a) {
+      force[i][a] = 0.5 * (on_middle[a] - on_director[a]);
+      force[i][a + 4] = 0.5 * (on_middle[a] + on_director[a]);
+    }
+  }
+}
+
+bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
+                                 double dt) {
+  CellVectors x_cell, x, u, middle;
+  collect(positions, cells_[c], x_cell);
+  turn_in(x_cell, x);
+  collect(displacements, cells_[c], middle);
+  turn_in(middle, u);
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < 8; ++a) middle[i][a] = x[i][a] - 0.5 * u[i][a];
+
+  // Strain of the step in its midpoint configuration: metric changes are exact there for any rotation.
+  const Surface halfway(middle), change(u), now(x);
+  Geometry geometry, end;
+  if (!find_geometry(halfway, geometry) || !find_geometry(now, end)) return false;
+  Lanes strain[most_batches][6], stress[most_batches][6];
+  find_strain(halfway, change, geometry, strain);
+  const double amplitude = enhance(geometry, {bulk_[c], 2.0 * material_.shear_modulus}, residual_[c], strain);
+
+  // Stress deviators; the spin is that of the displacement itself.
+  double deviatoric_work[2 * most_batches] = {}, layer_weight[2 * most_batches] = {}, opened[2 * most_batches] = {};
+  double plastic_work = 0.0, most_strain = 0.0, volume = 0.0, all_opened = 0.0;
+  for (int b = 0; b < batches_; ++b) {
+    const auto& inverse = geometry.inverse[b];
+    Lanes gradient[3][3], specific_volume;
+    for (int q = 0; q < 8; ++q) {
+      const double zeta = geometry.zeta[b][q];
+      double spin[3][3];
+      for (int i = 0; i < 3; ++i) {
+        const double u1 = change.m_xi[i][q] + zeta * change.d_xi[i][q], u2 = change.m_eta[i][q] + zeta * change.d_eta[i][q];
+        for (int j = 0; j < 3; ++j)
+          spin[i][j] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
+      }
+      const bool empty = geometry.weight[b][q] == 0.0;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          gradient[i][j][q] = empty ? 0.0 : strain[b][component[i][j]][q] + 0.5 * (spin[i][j] - spin[j][i]);
+      const int layer = 2 * b + q / 4;
+      specific_volume[q] = dilatation_[2 * batches_ * c + layer] / material_.rho0;
+      layer_weight[layer] += geometry.weight[b][q];
+      opened[layer] += geometry.weight[b][q] * (strain[b][0][q] + strain[b][1][q] + strain[b][2][q]);
+    }
+    materials::SolidPoints points;
+    materials::SolidStep done;
+    const std::size_t first = at(c, 8 * b);
+    for (int q = 0; q < 8; ++q) {
+      for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][first + q];
+      points.plastic_strain[q] = plastic_strain_[first + q];
+      points.temperature[q] = temperature_[first + q];
+    }
+    materials::advance_deviator(material_, gradient, specific_volume, dt, points, done);
+    for (int q = 0; q < 8; ++q) {
+      double& weight = weight_[first + q];
+      most_strain = std::max(most_strain, done.strain_norm[q]);
+      deviatoric_work[2 * b + q / 4] += 0.5 * (weight * done.old_work[q] + end.weight[b][q] * done.new_work[q]);
+      plastic_work += 0.5 * (weight + end.weight[b][q]) * done.plastic_work[q];
+      for (int k = 0; k < 6; ++k) stress[b][k][q] = deviator_[k][first + q] = points.deviator[k][q];
+      plastic_strain_[first + q] = points.plastic_strain[q];
+      temperature_[first + q] = points.temperature[q];
+      weight = end.weight[b][q];
+    }
+  }
+
+  // Bulk viscosity: of the whole cell, so that bending is not damped.
+  for (int layer = 0; layer < layers_; ++layer) {
+    volume += layer_weight[layer];
+    all_opened += opened[layer];
+  }
+  const double shear = material_.shear_modulus, mean_density = cell_mass_[c] / volume;
+  const double old_viscous = viscous_pressure_[c], old_sound = std::sqrt((bulk_[c] + 4.0 / 3.0 * shear) / mean_density);
+  viscous_pressure_[c] = viscous_pressure(c, all_opened / (volume * dt), mean_density, old_sound);
+
+  // Pressure of each layer from its mean dilatation; the work of this very pressure enters the energy it depends on.
+  double stored = 0.0, bulk = 0.0;
+  for (int layer = 0; layer < layers_; ++layer) {
+    const std::size_t k = 2 * batches_ * c + layer;
+    const double step = opened[layer] / layer_weight[layer], old_dilatation = dilatation_[k], old_pressure = pressure_[k];
+    if (!(std::abs(step) < 1.0)) return false;
+    dilatation_[k] *= (1.0 + 0.5 * step) / (1.0 - 0.5 * step);
+    const double density = material_.rho0 / dilatation_[k], reference_volume = layer_weight[layer] / (0.5 * (old_dilatation + dilatation_[k]));
+    const double swelling = opened[layer] / reference_volume;  // per reference volume, as the energies below
+    const double other = energy_[k] + deviatoric_work[layer] / reference_volume -
+                         0.5 * (old_viscous + viscous_pressure_[c]) * swelling;
+    auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[k] / material_.rho0);
+    for (int correction = 0; correction < 2; ++correction)
+      state = materials::evaluate(material_.pressure, material_.rho0, density,
+                                  (other - 0.5 * (old_pressure + state.pressure) * swelling) / material_.rho0);
+    pressure_[k] = state.pressure;
+    const double pressure_work = -0.5 * (old_pressure + state.pressure) * swelling;
+    energy_[k] = other + pressure_work;
+    stored += deviatoric_work[layer] + reference_volume * pressure_work;
+    bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;
+    for (int i = 0; i < 3; ++i)
+      for (int q = 4 * (layer % 2); q < 4 * (layer % 2) + 4; ++q) stress[layer / 2][i][q] -= state.pressure;
+  }
+  // What the lag of the enhanced strain did is not the nodes' work.
+  const double old_residual = residual_[c];
+  residual_[c] = residual_of(end, stress);
+  stored -= 0.5 * (old_residual + residual_[c]) * amplitude;
+  elastic_[c] += stored - plastic_work;
+  plastic_[c] += plastic_work;
+  viscous_[c] -= 0.5 * (old_viscous + viscous_pressure_[c]) * all_opened;
+  bulk_[c] = bulk;
+  follow_frequency(c, x_cell, most_strain, std::sqrt((bulk + 4.0 / 3.0 * shear) / mean_density), bulk);
+
+  for (int b = 0; b < batches_; ++b)
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) stress[b][i][q] -= viscous_pressure_[c];
+  CellVectors local, force;
+  spread(now, end, stress, local);
+  turn_out(local, force);
+  put_forces(c, force);
+  return std::isfinite(bulk + viscous_pressure_[c] + residual_[c]);
+}
+
+void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVectors& u_cell, Moduli moduli,
+                                      CellVectors& force) const {
+  CellVectors x, u;
+  turn_in(x_cell, x);
+  turn_in(u_cell, u);
+  const Surface surface(x), change(u);
+  Geometry geometry;
+  find_geometry(surface, geometry);
+  Lanes stress[most_batches][6];  // first the strain
+  find_strain(surface, change, geometry, stress);
+  enhance(geometry, moduli, 0.0, stress);
+  for (int b = 0; b < batches_; ++b)
+    for (int layer = 0; layer < 2; ++layer) {
+      double volume = 0.0, opened = 0.0;
+      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+        volume += geometry.weight[b][q];
+        opened += geometry.weight[b][q] * (stress[b][0][q] + stress[b][1][q] + stress[b][2][q]);
+      }
+      const double tension = volume > 0.0 ? moduli.bulk * opened / volume : 0.0;
+      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+        const double mean = (stress[b][0][q] + stress[b][1][q] + stress[b][2][q]) / 3.0;
+        for (int k = 0; k < 3; ++k) stress[b][k][q] = moduli.twice_shear * (stress[b][k][q] - mean) + tension;
+        for (int k = 3; k < 6; ++k) stress[b][k][q] *= moduli.twice_shear;
+      }
+    }
+  CellVectors local;
+  spread(surface, geometry, stress, local);
+  turn_out(local, force);
+}
+
+ElementSet::Moduli ShellElements::moduli(std::size_t c) const { return {bulk_[c], 2.0 * material_.shear_modulus}; }
+
+std::vector<double> ShellElements::shares_at(const std::array<double, 3>& unit) const {
+  const auto side = [](double coordinate) {  // share of the high one of the two Gauss points
+    return std::clamp(0.5 + 0.5 * std::numbers::sqrt3 * (2.0 * coordinate - 1.0), 0.0, 1.0);
+  };
+  const double xi = side(unit[(through_ + 1) % 3]), eta = side(unit[(through_ + 2) % 3]), zeta = 2.0 * unit[through_] - 1.0;
+  std::vector<double> shares(4 * layers_, 0.0);
+  int low = 0;
+  while (low + 2 < layers_ && zeta > layer_zeta_[low + 1]) ++low;
+  const double t = std::clamp((zeta - layer_zeta_[low]) / (layer_zeta_[low + 1] - layer_zeta_[low]), 0.0, 1.0);
+  for (int p = 0; p < 4; ++p) {
+    const double in_plane = (p & 1 ? xi : 1.0 - xi) * (p & 2 ? eta : 1.0 - eta);
+    shares[4 * low + p] = in_plane * (1.0 - t);
+    shares[4 * low + 4 + p] = in_plane * t;
+  }
+  return shares;
+}
+
+Mat3 ShellElements::stress(std::size_t cell, int q) const {
+  const std::size_t k = at(cell, q);
+  const auto& s = deviator_;
+  Mat3 full;
+  full << s[0][k], s[5][k], s[4][k],  //
+      s[5][k], s[1][k], s[3][k],      //
+      s[4][k], s[3][k], s[2][k];
+  return full - pressure_[2 * batches_ * cell + q / 4] * Mat3::Identity();
+}
+
+double ShellElements::pressure(std::size_t cell) const {
+  double mean = 0.0;
+  for (int layer = 0; layer < layers_; ++layer) mean += 0.5 * layer_weight_[layer] * pressure_[2 * batches_ * cell + layer];
+  return mean;
+}
+
+std::size_t ShellElements::memory_bytes() const {
+  std::size_t values = 0;
+  for (const auto& field : deviator_) values += field.size();
+  for (const auto* field : {&plastic_strain_, &temperature_, &weight_, &pressure_, &energy_, &dilatation_,
+                            &viscous_pressure_, &residual_, &bulk_})
+    values += field->size();
+  return shared_memory_bytes() + values * sizeof(double);
+}
+
+}  // namespace undex::fem

@@ -1,0 +1,77 @@
+// Solid shells: eight-node hexahedra for thin walls, one cell through the thickness, several quadrature points in it.
+//
+// Metric changes of a step are taken where they do not lock: transverse shear at the middles of the mid-surface's edges
+// (Dvorkin, Bathe 1984, doi 10.1108/eb023562), thickness strain at its corners (Betsch, Stein 1995, doi
+// 10.1002/cnm.1640111105), and membrane and bending strain at the 2x2 points in the plane. One enhanced strain, along the
+// normal and linear through the thickness, lets bending change the thickness as Poisson's ratio asks (Hauptmann,
+// Schweizerhof 1998, doi 10.1002/(SICI)1097-0207(19980515)42:1<49::AID-NME349>3.0.CO;2-2). Pressure: one per layer of
+// points, from the layer's mean dilatation. The nodal force is the exact derivative of the power of these strains.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "fem_structure/element_set.hpp"
+#include "fem_structure/settings.hpp"
+#include "materials/stress_update.hpp"
+
+namespace undex::fem {
+
+/// Direction (0, 1 or 2) of a cell's unit coordinates that runs through the wall: radial in a tube, the thinnest
+/// extent of a plate. Throws std::invalid_argument where a mesh has none; `who` opens the message.
+int thickness_direction(const Mesh& mesh, const std::string& who);
+
+/// State of all shell cells and the passes over them. Points of a cell: four in the plane, layer by layer from the low
+/// end of the thickness direction, on Gauss points.
+class ShellElements final : public ElementSet {
+ public:
+  /// `through`: the cells' direction across the wall; `layers`: Gauss points through the thickness, 2 to most_layers.
+  ShellElements(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity,
+                int through, int layers);
+  static constexpr int most_layers = 10;
+
+  int points_per_cell() const override { return 4 * layers_; }
+  double mean_share(int q) const override { return 0.125 * layer_weight_[q / 4]; }
+  std::vector<double> shares_at(const std::array<double, 3>& unit) const override;
+  Mat3 stress(std::size_t cell, int q) const override;
+  double pressure(std::size_t cell) const override;
+  double plastic_strain(std::size_t cell, int q) const override { return plastic_strain_[at(cell, q)]; }
+  double temperature(std::size_t cell, int q) const override { return temperature_[at(cell, q)]; }
+  std::size_t memory_bytes() const override;
+
+ private:
+  using Lanes = materials::EightPoints;  ///< four points of one layer, then four of the next
+  struct Surface;
+  struct Geometry;
+
+  bool advance_cell(std::size_t cell, std::span<const Vec3> x, std::span<const Vec3> u, double dt) override;
+  void linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const override;
+  Moduli moduli(std::size_t cell) const override;
+
+  void turn_in(const CellVectors& cell, CellVectors& local) const;
+  void turn_out(const CellVectors& local, CellVectors& cell) const;
+  bool find_geometry(const Surface& x, Geometry& geometry) const;
+  /// Assumed strain [6] of a small displacement at all points, without the enhanced one.
+  void find_strain(const Surface& x, const Surface& u, const Geometry& geometry, Lanes (*strain)[6]) const;
+  /// Amplitude of the enhanced strain that takes the elastic residual to zero: `residual` [J] before the strain.
+  double enhance(const Geometry& geometry, Moduli moduli, double residual, Lanes (*strain)[6]) const;
+  double residual_of(const Geometry& geometry, const Lanes (*stress)[6]) const;
+  void spread(const Surface& x, const Geometry& geometry, const Lanes (*stress)[6], CellVectors& force) const;
+  std::size_t at(std::size_t cell, int q) const { return 8 * (batches_ * cell) + q; }
+
+  int layers_, batches_;      ///< layers go through the law two at a time; the last batch may be half empty
+  std::array<int, 8> order_;  ///< local node (zeta through the wall, VTK order) -> node of the grid's cell
+  int through_;
+  std::vector<double> layer_zeta_, layer_weight_;  ///< [2 batches_]; the weight of an empty layer is zero
+
+  // State, per point: 8 batches_ a cell.
+  std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
+  std::vector<double> plastic_strain_, temperature_, weight_;
+  // State, per layer: 2 batches_ a cell. Energy per reference volume [J/m^3], volume over reference volume.
+  std::vector<double> pressure_, energy_, dilatation_;
+  // State, per cell. Residual of the enhanced strain [J], bulk modulus [Pa].
+  std::vector<double> viscous_pressure_, residual_, bulk_;
+};
+
+}  // namespace undex::fem
