@@ -40,7 +40,8 @@ Simulation::Simulation(const scene::Scene& scene) {
       copies_ *= 2;
       planes = true;
     }
-  const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty());
+  const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty() ||
+                                            !scene.structure->planes.empty());
   closed_ = !planes && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
   start_mass_ = mass();
   start_momentum_ = momentum();
@@ -102,7 +103,7 @@ EnergyBalance Simulation::energy() const {
     e.structure_kinetic = copies_ * s.kinetic;
     e.elastic = copies_ * s.elastic;
     e.plastic = copies_ * s.plastic;
-    e.viscous = copies_ * s.viscous;
+    e.viscous = copies_ * (s.viscous + s.impact);
     external = copies_ * s.external;
   }
   if (solids_) {

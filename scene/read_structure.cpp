@@ -40,12 +40,13 @@ void read_count(const TableReader& cells, const char* key, int divisor, const ch
 }
 const char* const halved = ": it counts the whole body, which a symmetry plane halves";
 
-/// By default a cell is half the wall.
-void read_cells(const TableReader& table, const Draft& draft, fem::TubeMesh& tube) {
+/// By default a cell is half the wall, a shell's the whole wall.
+void read_cells(const TableReader& table, const Draft& draft, fem::ElementKind element, fem::TubeMesh& tube) {
   const double wall = tube.outer_radius - tube.inner_radius;
   const int halves = is_halved(draft, tube.axis, tube.low) ? 2 : 1;
-  const double cell = read_cell_size(table).value_or(0.5 * wall);
-  tube.cells_through = cells_over(wall, cell, 2);
+  const bool shell = element == fem::ElementKind::shell;
+  const double cell = read_cell_size(table).value_or(shell ? wall : 0.5 * wall);
+  tube.cells_through = shell ? 1 : cells_over(wall, cell, 2);
   tube.cells_around = rounded_up(cells_over(std::numbers::pi * (tube.inner_radius + tube.outer_radius), cell, 8), 4);
   tube.cells_along = rounded_up(cells_over(tube.high - tube.low, cell, 1), halves);
   const Node* node = table.table("cells");
@@ -69,12 +70,16 @@ void read_cells(const TableReader& table, const Draft& draft, fem::RodMesh& rod)
   read_count(cells, "along", halves, halved, rod.cells_along);
 }
 
-/// By default a cell is half the thickness.
-void read_cells(const TableReader& table, const Draft& draft, fem::PlateMesh& plate) {
+/// By default a cell is half the thickness, a shell's all of it.
+void read_cells(const TableReader& table, const Draft& draft, fem::ElementKind element, fem::PlateMesh& plate) {
   const Vec3 extent = plate.high - plate.low;
-  const double cell = read_cell_size(table).value_or(0.5 * extent.minCoeff());
+  const bool shell = element == fem::ElementKind::shell;
+  const double cell = read_cell_size(table).value_or((shell ? 1.0 : 0.5) * extent.minCoeff());
   const auto halves = [&](int axis) { return is_halved(draft, axis, plate.low[axis]) ? 2 : 1; };
   for (int a = 0; a < 3; ++a) plate.cells[a] = rounded_up(cells_over(extent[a], cell, 1), halves(a));
+  int thinnest = 0;
+  extent.minCoeff(&thinnest);
+  if (shell) plate.cells[thinnest] = halves(thinnest);
   const Node* node = table.table("cells");
   if (!node) return;
   const TableReader cells(*node, table.path_of("cells"), "cells.plate", 3, table.report());
@@ -82,7 +87,7 @@ void read_cells(const TableReader& table, const Draft& draft, fem::PlateMesh& pl
   for (int a = 0; a < 3; ++a) read_count(cells, names[a], halves(a), halved, plate.cells[a]);
 }
 
-bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
+bool read_mesh(const TableReader& table, Draft& draft, fem::ElementKind element, fem::Mesh& into) {
   Report& report = draft.report;
   if (!table.need("shape", "e.g. shape = {type = \"tube\", inner_radius = 0.04, outer_radius = 0.05, low = -0.1, high = 0.1}"))
     return false;
@@ -96,6 +101,9 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
                        (type ? ", not " + type->described() : "; e.g. {type = \"tube\", ...}"));
     return false;
   }
+  if (element == fem::ElementKind::shell && (type->text == "gmsh" || type->text == "rod"))
+    table.complain("element", table.path_of("element") + " = \"shell\" needs a wall whose thickness direction is known, that of "
+                              "a tube, ring or plate; use \"hexahedron\" for a " + type->text);
   if (type->text == "gmsh") {
     const TableReader shape(node, path, "structure.gmsh", 3, report);
     std::string file;
@@ -120,7 +128,7 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
   if (!read_shape(as_shape, path, 3, {kind}, report, shape)) return false;
   if (const auto* box = std::get_if<Box>(&shape)) {
     fem::PlateMesh plate{box->low, box->high};
-    read_cells(table, draft, plate);
+    read_cells(table, draft, element, plate);
     into = plate;
   } else if (const auto* c = std::get_if<Cylinder>(&shape)) {
     fem::RodMesh rod{.axis = c->axis, .center = c->center, .radius = c->radius, .low = c->low, .high = c->high};
@@ -130,7 +138,7 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Mesh& into) {
     const TubeShape& t = std::get<TubeShape>(shape);
     fem::TubeMesh tube{.axis = t.axis, .center = t.center, .inner_radius = t.inner, .outer_radius = t.outer,
                        .low = t.low, .high = t.high};
-    read_cells(table, draft, tube);
+    read_cells(table, draft, element, tube);
     into = tube;
   }
   return true;
@@ -184,6 +192,19 @@ void read_loads(const TableReader& table, const std::vector<std::string>& faces,
   }
 }
 
+void read_planes(const TableReader& table, fem::Settings& structure) {
+  const auto nodes = table.tables("planes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const TableReader one(*nodes[i], table.path_of("planes") + '.' + std::to_string(i), "planes", 3, table.report());
+    fem::RigidPlane plane;
+    one.need("axis", "name the axis that is normal to the plane");
+    one.read_axis("axis", plane.axis);
+    one.read("position", plane.position);
+    one.read_choice<bool>("side", plane.body_above, {{"high", true}, {"low", false}});
+    structure.planes.push_back(plane);
+  }
+}
+
 }  // namespace
 
 void read_structure(Draft& draft) {
@@ -208,7 +229,10 @@ void read_structure(Draft& draft) {
   const TableReader table(*node, "structure", "structure", 3, draft.report);
   fem::Settings structure;
   table.read_name("name", structure.name);
-  draft.structure_shape_good = read_mesh(table, draft, structure.mesh);
+  table.read_choice<fem::ElementKind>("element", structure.element,
+                                      {{"hexahedron", fem::ElementKind::hexahedron}, {"shell", fem::ElementKind::shell}});
+  table.read("points_through", structure.points_through);
+  draft.structure_shape_good = read_mesh(table, draft, structure.element, structure.mesh);
   if (table.need("material", "e.g. material = \"al-5083-h116\" ('undex materials' lists them)"))
     read_solid_material(*table.find("material"), "structure.material", draft, structure.material);
   for (int a = 0; a < 3; ++a)
@@ -218,6 +242,7 @@ void read_structure(Draft& draft) {
       draft.structure_shape_good ? mesh_faces(structure.mesh, draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
+  read_planes(table, structure);
   if (table.read("wet", structure.wet_faces))
     for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
   table.read("velocity", structure.initial_velocity);

@@ -272,6 +272,8 @@ void put_mesh(Writer& writer, const fem::Mesh& mesh) {
 void put_structure(Writer& writer, const fem::Settings& structure) {
   writer.table("[structure]", "structure");
   writer.put("name", structure.name);
+  writer.put("element", structure.element == fem::ElementKind::shell ? "shell" : "hexahedron");
+  writer.put("points_through", structure.points_through);
   writer.put("wet", structure.wet_faces);
   writer.put("velocity", structure.initial_velocity);
   writer.put("courant", structure.courant);
@@ -283,6 +285,12 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
     writer.table("[[structure.supports]]", "supports");
     writer.put("face", support.face);
     writer.axes("fixed", support.fixed);
+  }
+  for (const fem::RigidPlane& plane : structure.planes) {
+    writer.table("[[structure.planes]]", "planes");
+    writer.axis("axis", plane.axis);
+    writer.put("position", plane.position);
+    writer.put("side", plane.body_above ? "high" : "low");
   }
   for (const fem::PressureLoad& load : structure.loads) {
     writer.table("[[structure.loads]]", "loads");

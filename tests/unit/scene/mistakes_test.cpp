@@ -103,6 +103,10 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "26:21: structure.supports.0.face: unknown 'hihg'; did you mean 'high'?\n"},
       {"face that symmetry cuts away", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"low\"}]"),
        "26:21: structure.supports.0.face: unknown 'low'; known: inner, outer, high\n"},
+      {"shell of a rod",
+       "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\nshape = {type = \"rod\", radius = 1, low = 0, high = 9}\n",
+       "4:11: structure.element = \"shell\" needs a wall whose thickness direction is known, that of a tube, ring or plate; "
+       "use \"hexahedron\" for a rod\n"},
       {"wet face", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inside\"]"),
        "25:7: structure.wet: unknown 'inside'"},
       {"cells that symmetry cannot halve", with(coupled_tube, "along = 20", "along = 21"),

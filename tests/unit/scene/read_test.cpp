@@ -161,6 +161,21 @@ TEST(Read, OtherStructures) {
   EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).path, scratch.folder() / "mesh.msh");
 }
 
+TEST(Read, ShellsAreOneCellThick) {
+  const std::string frame = "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\n";
+  const Scene ring = read_text(frame + "shape = {type = \"ring\", inner_radius = 0.1, outer_radius = 0.105, low = 0, high = 0.02}\n");
+  EXPECT_EQ(ring.structure->element, fem::ElementKind::shell);
+  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_through, 1);
+  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_along, 4);
+  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 3\n"
+                                    "planes = [{axis = \"y\", position = 1, side = \"low\"}]\n");
+  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{10, 1, 20}));
+  EXPECT_EQ(plate.structure->points_through, 3);
+  EXPECT_EQ(plate.structure->planes[0].axis, 1);
+  EXPECT_EQ(plate.structure->planes[0].position, 1.0);
+  EXPECT_FALSE(plate.structure->planes[0].body_above);
+}
+
 TEST(Read, FolderOrFileAndItsName) {
   const Scratch scratch;
   std::filesystem::create_directories(scratch.folder() / "my_scene");

@@ -89,7 +89,10 @@ name = "pipe"
 shape = {type = "tube", axis = "z", inner_radius = 0.04, outer_radius = 0.045, low = -0.1, high = 0.1}
 cells = {through = 3, around = 40, along = 30}
 material = {base = "al-6061-t6", T_room = 300, taylor_quinney = 0.8, pressure = {C = 5000}, flow = {rate0 = 2, T_room = 301}}
+element = "shell"
+points_through = 3
 supports = [{face = "low", fixed = ["x", "z"]}, {face = "high"}]
+planes = [{axis = "x", position = -0.5}, {axis = "z", position = 2, side = "low"}]
 wet = ["inner", "outer"]
 loads = [{face = "outer", time = [0, 1e-6], pressure = [1e5, 2e5]}]
 velocity = [0, 0, 4]

@@ -1,0 +1,86 @@
+// Contact with rigid planes: a bar that bounces, momentum and energy booked, no pull.
+#include <gtest/gtest.h>
+
+#include "bodies.hpp"
+
+namespace undex::fem::testing {
+namespace {
+
+constexpr double length = 1.0, speed = 1.0;
+
+/// A bar of n cells without lateral contraction that flies towards z = 0 from a distance of `gap`.
+Settings flying_bar(int n, double gap) {
+  Settings settings = plate(Vec3(0, 0, gap), Vec3(0.02, 0.02, gap + length), {1, 1, n}, elastic(2700.0, 71e9, 0.0));
+  settings.linear_viscosity = settings.quadratic_viscosity = 0.0;
+  settings.initial_velocity = Vec3(0, 0, -speed);
+  settings.planes = {{2, 0.0, true}};
+  return settings;
+}
+
+struct Bounce {
+  double contact, rebound, impact, balance;
+};
+
+Bounce bounce(int n) {
+  const double c = std::sqrt(71e9 / 2700.0), gap = 1e-5;
+  Structure bar(flying_bar(n, gap));
+  const double start = bar.energies().balance(), mass = bar.total_mass();
+  double last_push = 0.0, before = 0.0;
+  while (bar.time() < gap / speed + 3.0 * length / c) {
+    bar.advance(bar.time() + bar.stable_step(), {});
+    if (bar.plane_impulse()[2] > before) last_push = bar.time();
+    before = bar.plane_impulse()[2];
+    EXPECT_NEAR(bar.momentum()[2], -mass * speed + before, 1e-12 * mass * speed);
+  }
+  const Energies energies = bar.energies();
+  return {(last_push - gap / speed) / (2.0 * length / c), bar.momentum()[2] / mass / speed, energies.impact / start,
+          energies.balance() / start - 1.0};
+}
+
+TEST(Contact, ElasticBarBouncesOffAfterTwoPassagesOfTheWave) {
+  const Bounce coarse = bounce(50), fine = bounce(200);
+  for (const auto& [name, b] : {std::pair{"coarse", coarse}, {"fine", fine}}) {
+    RecordProperty(std::string(name) + "_contact_time", std::to_string(b.contact));
+    RecordProperty(std::string(name) + "_rebound", std::to_string(b.rebound));
+    RecordProperty(std::string(name) + "_impact", std::to_string(b.impact));
+    RecordProperty(std::string(name) + "_balance", std::to_string(1e6 * b.balance) + "e-6");
+    EXPECT_NEAR(b.balance, 0.0, 1e-5);
+  }
+  EXPECT_NEAR(fine.contact, 1.0, 0.01);
+  EXPECT_NEAR(fine.rebound, 1.0, 0.01);
+  // Half a cell's kinetic energy, and a little more where the end's node leaves and meets the plane again.
+  EXPECT_GT(fine.impact, 0.5 / 200);
+  EXPECT_LT(fine.impact, 1.3 * 0.5 / 200);
+  EXPECT_LT(std::abs(fine.rebound - 1.0), 0.6 * std::abs(coarse.rebound - 1.0));
+}
+
+TEST(Contact, NothingPullsWhatLeaves) {
+  Settings settings = flying_bar(20, 0.0);
+  settings.initial_velocity = Vec3(1, 2, speed);
+  Structure bar(settings);
+  bar.advance(1e-3, {});
+  EXPECT_EQ(bar.plane_impulse(), Vec3(0, 0, 0));
+  EXPECT_EQ(bar.energies().impact, 0.0);
+  EXPECT_NEAR(bar.momentum()[2], bar.total_mass() * speed, 1e-12 * bar.total_mass() * speed);
+}
+
+TEST(Contact, RestsUnderALoadWithoutWork) {
+  // Pressed onto a plane from its low side: the reaction is the load, and no work is done at the plane.
+  Settings settings = plate(Vec3(0, 0, 0), Vec3(0.3, 0.02, 0.02), {30, 1, 1}, elastic(2700.0, 71e9, 0.0));
+  settings.planes = {{0, 0.3, false}};
+  settings.loads = {{"x_low", {0.0, 1e-3}, {0.0, 1e7}}};
+  Structure bar(settings);
+  bar.advance(2e-3, {});
+  const double force = 1e7 * 4e-4, given = 0.5 * force * 1e-3 + force * 1e-3;
+  EXPECT_NEAR(bar.plane_impulse()[0], -given, 0.01 * given);
+  EXPECT_LT(bar.energies().impact, 1e-4 * bar.energies().external);
+  EXPECT_NEAR(bar.energies().balance(), 0.0, 1e-4 * bar.energies().external);
+}
+
+TEST(Contact, BodyBeyondThePlaneIsRefused) {
+  Settings settings = flying_bar(4, -0.1);
+  EXPECT_THROW(Structure{settings}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace undex::fem::testing
