@@ -68,7 +68,7 @@ struct Settings {
   std::string name = "structure";
   Mesh mesh;
   ElementKind element = ElementKind::hexahedron;
-  int points_through = 5;                ///< of shells: Gauss points through the thickness of a cell, 2 to 10
+  int points_through = 3;                ///< of shells: Gauss points through the thickness of a cell, 2 to 10
   materials::Solid material;
   std::vector<Support> supports;
   std::vector<int> symmetry_axes;        ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh

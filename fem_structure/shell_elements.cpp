@@ -12,6 +12,7 @@ namespace {
 constexpr int most_batches = ShellElements::most_layers / 2;
 constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+constexpr int place[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
 
 /// Bilinear functions of the mid-surface at the 2x2 points in the plane, for both layers of a batch; xi, eta in [-1, 1].
 struct PlaneRule {
@@ -56,6 +57,13 @@ void gauss(int n, std::vector<double>& point, std::vector<double>& weight) {
   }
 }
 
+void cross(const materials::EightPoints (&a)[3], const materials::EightPoints (&b)[3], materials::EightPoints (&c)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (int q = 0; q < 8; ++q) c[i][q] = a[j][q] * b[k][q] - a[k][q] * b[j][q];
+  }
+}
+
 double dot(const double (&a)[3], const double (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 }  // namespace
@@ -94,21 +102,29 @@ struct ShellElements::Surface {
       }
       for (int q = 0; q < 8; ++q) m_xi[i][q] = m_eta[i][q] = d[i][q] = d_xi[i][q] = d_eta[i][q] = 0.0;
       for (int a = 0; a < 4; ++a)
-        for (int q = 0; q < 8; ++q) {
+        for (int q = 0; q < 4; ++q) {
           m_xi[i][q] += middle[a] * plane.along_xi[a][q];
           m_eta[i][q] += middle[a] * plane.along_eta[a][q];
           d[i][q] += corner_d[a][i] * plane.value[a][q];
           d_xi[i][q] += corner_d[a][i] * plane.along_xi[a][q];
           d_eta[i][q] += corner_d[a][i] * plane.along_eta[a][q];
         }
+      for (int q = 0; q < 4; ++q) {  // the other layer of a batch is alike
+        m_xi[i][q + 4] = m_xi[i][q];
+        m_eta[i][q + 4] = m_eta[i][q];
+        d[i][q + 4] = d[i][q];
+        d_xi[i][q + 4] = d_xi[i][q];
+        d_eta[i][q + 4] = d_eta[i][q];
+      }
     }
   }
 };
 
-/// At all points: zeta, contravariant base (rows), weights; and for the enhanced strain its shape, zeta j(0)/j(zeta), and
-/// the unit normal of the mid-surface.
+/// At all points: zeta, the covariant vectors of the layer, contravariant base (rows), weights; and for the enhanced strain
+/// its shape, zeta j(0)/j(zeta), and the unit normal of the mid-surface.
 struct ShellElements::Geometry {
-  Lanes zeta[most_batches], inverse[most_batches][3][3], weight[most_batches], shape[most_batches];
+  Lanes zeta[most_batches], along_xi[most_batches][3], along_eta[most_batches][3], inverse[most_batches][3][3];
+  Lanes weight[most_batches], shape[most_batches];
   Lanes normal[3];
 };
 
@@ -165,43 +181,49 @@ void ShellElements::turn_out(const CellVectors& local, CellVectors& cell) const 
 
 bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
   Lanes middle;  // determinant on the mid-surface
+  cross(x.m_xi, x.m_eta, geometry.normal);
   for (int q = 0; q < 8; ++q) {
-    double n[3];
-    for (int i = 0; i < 3; ++i)
-      n[i] = x.m_xi[(i + 1) % 3][q] * x.m_eta[(i + 2) % 3][q] - x.m_xi[(i + 2) % 3][q] * x.m_eta[(i + 1) % 3][q];
-    middle[q] = n[0] * x.d[0][q] + n[1] * x.d[1][q] + n[2] * x.d[2][q];
-    const double over = 1.0 / std::sqrt(dot(n, n));
-    for (int i = 0; i < 3; ++i) geometry.normal[i][q] = over * n[i];
+    double& n0 = geometry.normal[0][q];
+    double& n1 = geometry.normal[1][q];
+    double& n2 = geometry.normal[2][q];
+    middle[q] = n0 * x.d[0][q] + n1 * x.d[1][q] + n2 * x.d[2][q];
+    const double over = 1.0 / std::sqrt(n0 * n0 + n1 * n1 + n2 * n2);
+    n0 *= over;
+    n1 *= over;
+    n2 *= over;
   }
-  bool sound = true;
+  double least = middle[0], most = 0.0;
   for (int b = 0; b < batches_; ++b) {
     auto& inverse = geometry.inverse[b];
+    Lanes(&g1)[3] = geometry.along_xi[b];
+    Lanes(&g2)[3] = geometry.along_eta[b];
+    Lanes layer_weight, determinant;
     for (int q = 0; q < 8; ++q) {
-      const double zeta = layer_zeta_[2 * b + q / 4];
-      double g[3][3];  // covariant base
-      for (int i = 0; i < 3; ++i) {
-        g[0][i] = x.m_xi[i][q] + zeta * x.d_xi[i][q];
-        g[1][i] = x.m_eta[i][q] + zeta * x.d_eta[i][q];
-        g[2][i] = x.d[i][q];
+      geometry.zeta[b][q] = layer_zeta_[2 * b + q / 4];
+      layer_weight[q] = layer_weight_[2 * b + q / 4];
+    }
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        g1[i][q] = x.m_xi[i][q] + geometry.zeta[b][q] * x.d_xi[i][q];
+        g2[i][q] = x.m_eta[i][q] + geometry.zeta[b][q] * x.d_eta[i][q];
       }
-      double cross[3][3];
-      for (int k = 0; k < 3; ++k) {
-        const double(&a)[3] = g[(k + 1) % 3];
-        const double(&c)[3] = g[(k + 2) % 3];
-        cross[k][0] = a[1] * c[2] - a[2] * c[1];
-        cross[k][1] = a[2] * c[0] - a[0] * c[2];
-        cross[k][2] = a[0] * c[1] - a[1] * c[0];
-      }
-      const double determinant = dot(g[0], cross[0]), over = 1.0 / determinant;
+    cross(g2, x.d, inverse[0]);
+    cross(x.d, g1, inverse[1]);
+    cross(g1, g2, inverse[2]);
+    for (int q = 0; q < 8; ++q) {
+      determinant[q] = g1[0][q] * inverse[0][0][q] + g1[1][q] * inverse[0][1][q] + g1[2][q] * inverse[0][2][q];
+      const double over = 1.0 / determinant[q];
       for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < 3; ++i) inverse[k][i][q] = over * cross[k][i];
-      geometry.zeta[b][q] = zeta;
-      geometry.weight[b][q] = layer_weight_[2 * b + q / 4] * determinant;
-      geometry.shape[b][q] = zeta * middle[q] * over;
-      sound &= determinant > 0.0 && std::isfinite(determinant);
+        for (int i = 0; i < 3; ++i) inverse[k][i][q] *= over;
+      geometry.weight[b][q] = layer_weight[q] * determinant[q];
+      geometry.shape[b][q] = geometry.zeta[b][q] * middle[q] * over;
+    }
+    for (int q = 0; q < 8; ++q) {
+      least = std::min(least, determinant[q]);
+      most += std::abs(determinant[q]);
     }
   }
-  return sound;
+  return least > 0.0 && std::isfinite(most);
 }
 
 void ShellElements::find_strain(const Surface& x, const Surface& u, const Geometry& geometry, Lanes (*strain)[6]) const {
@@ -219,31 +241,28 @@ void ShellElements::find_strain(const Surface& x, const Surface& u, const Geomet
   }
   for (int b = 0; b < batches_; ++b) {
     const auto& inverse = geometry.inverse[b];
-    for (int q = 0; q < 8; ++q) {
-      const double zeta = geometry.zeta[b][q];
-      double e11 = 0.0, e22 = 0.0, e12 = 0.0;
-      for (int i = 0; i < 3; ++i) {
-        const double g1 = x.m_xi[i][q] + zeta * x.d_xi[i][q], g2 = x.m_eta[i][q] + zeta * x.d_eta[i][q];
-        const double u1 = u.m_xi[i][q] + zeta * u.d_xi[i][q], u2 = u.m_eta[i][q] + zeta * u.d_eta[i][q];
-        e11 += g1 * u1;
-        e22 += g2 * u2;
-        e12 += 0.5 * (g1 * u2 + g2 * u1);
+    const auto& g1 = geometry.along_xi[b];
+    const auto& g2 = geometry.along_eta[b];
+    Lanes e11 = {}, e22 = {}, e12 = {};
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        const double u1 = u.m_xi[i][q] + geometry.zeta[b][q] * u.d_xi[i][q];
+        const double u2 = u.m_eta[i][q] + geometry.zeta[b][q] * u.d_eta[i][q];
+        e11[q] += g1[i][q] * u1;
+        e22[q] += g2[i][q] * u2;
+        e12[q] += 0.5 * (g1[i][q] * u2 + g2[i][q] * u1);
       }
-      double m[3][3];  // sum over j of E_ij g^j
-      for (int i = 0; i < 3; ++i) {
-        m[0][i] = e11 * inverse[0][i][q] + e12 * inverse[1][i][q] + e13[q] * inverse[2][i][q];
-        m[1][i] = e12 * inverse[0][i][q] + e22 * inverse[1][i][q] + e23[q] * inverse[2][i][q];
-        m[2][i] = e13[q] * inverse[0][i][q] + e23[q] * inverse[1][i][q] + e33[q] * inverse[2][i][q];
+    Lanes m[3][3];  // sum over j of E_ij g^j
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        m[0][i][q] = e11[q] * inverse[0][i][q] + e12[q] * inverse[1][i][q] + e13[q] * inverse[2][i][q];
+        m[1][i][q] = e12[q] * inverse[0][i][q] + e22[q] * inverse[1][i][q] + e23[q] * inverse[2][i][q];
+        m[2][i][q] = e13[q] * inverse[0][i][q] + e23[q] * inverse[1][i][q] + e33[q] * inverse[2][i][q];
       }
-      const auto full = [&](int i, int j) {
-        return inverse[0][i][q] * m[0][j] + inverse[1][i][q] * m[1][j] + inverse[2][i][q] * m[2][j];
-      };
-      strain[b][0][q] = full(0, 0);
-      strain[b][1][q] = full(1, 1);
-      strain[b][2][q] = full(2, 2);
-      strain[b][3][q] = full(1, 2);
-      strain[b][4][q] = full(2, 0);
-      strain[b][5][q] = full(0, 1);
+    for (int k = 0; k < 6; ++k) {
+      const auto [i, j] = place[k];
+      for (int q = 0; q < 8; ++q)
+        strain[b][k][q] = inverse[0][i][q] * m[0][j][q] + inverse[1][i][q] * m[1][j][q] + inverse[2][i][q] * m[2][j][q];
     }
   }
 }
@@ -301,29 +320,35 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
   Lanes s13 = {}, s23 = {}, s33 = {};
   for (int b = 0; b < batches_; ++b) {
     const auto& inverse = geometry.inverse[b];
+    const auto& g1 = geometry.along_xi[b];
+    const auto& g2 = geometry.along_eta[b];
+    Lanes m[3][3], s11, s22, s12;  // g^k . sigma, times weight
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int q = 0; q < 8; ++q)
+          m[k][i][q] = geometry.weight[b][q] * (inverse[k][0][q] * stress[b][component[0][i]][q] +
+                                                inverse[k][1][q] * stress[b][component[1][i]][q] +
+                                                inverse[k][2][q] * stress[b][component[2][i]][q]);
+    const auto contravariant = [&](int k, int l, int q) {
+      return m[k][0][q] * inverse[l][0][q] + m[k][1][q] * inverse[l][1][q] + m[k][2][q] * inverse[l][2][q];
+    };
     for (int q = 0; q < 8; ++q) {
-      const double zeta = geometry.zeta[b][q], w = geometry.weight[b][q];
-      double m[3][3];  // g^k . sigma, times weight
-      for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < 3; ++i)
-          m[k][i] = w * (inverse[k][0][q] * stress[b][component[0][i]][q] + inverse[k][1][q] * stress[b][component[1][i]][q] +
-                         inverse[k][2][q] * stress[b][component[2][i]][q]);
-      const auto contravariant = [&](int k, int l) {
-        return m[k][0] * inverse[l][0][q] + m[k][1] * inverse[l][1][q] + m[k][2] * inverse[l][2][q];
-      };
-      const double s11 = contravariant(0, 0), s22 = contravariant(1, 1), s12 = contravariant(0, 1);
-      s13[q] += contravariant(0, 2);
-      s23[q] += contravariant(1, 2);
-      s33[q] += contravariant(2, 2);
-      for (int i = 0; i < 3; ++i) {
-        const double g1 = x.m_xi[i][q] + zeta * x.d_xi[i][q], g2 = x.m_eta[i][q] + zeta * x.d_eta[i][q];
-        const double along_xi = s11 * g1 + s12 * g2, along_eta = s12 * g1 + s22 * g2;
+      s11[q] = contravariant(0, 0, q);
+      s22[q] = contravariant(1, 1, q);
+      s12[q] = contravariant(0, 1, q);
+      s13[q] += contravariant(0, 2, q);
+      s23[q] += contravariant(1, 2, q);
+      s33[q] += contravariant(2, 2, q);
+    }
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        const double zeta = geometry.zeta[b][q];
+        const double along_xi = s11[q] * g1[i][q] + s12[q] * g2[i][q], along_eta = s12[q] * g1[i][q] + s22[q] * g2[i][q];
         on_m_xi[i][q] += along_xi;
         on_m_eta[i][q] += along_eta;
         on_d_xi[i][q] += zeta * along_xi;
         on_d_eta[i][q] += zeta * along_eta;
       }
-    }
   }
   double thickness[4] = {}, shear[4] = {};
   for (int q = 0; q < 8; ++q) {
@@ -385,18 +410,22 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
   for (int b = 0; b < batches_; ++b) {
     const auto& inverse = geometry.inverse[b];
     Lanes gradient[3][3], specific_volume;
-    for (int q = 0; q < 8; ++q) {
-      const double zeta = geometry.zeta[b][q];
-      double spin[3][3];
-      for (int i = 0; i < 3; ++i) {
-        const double u1 = change.m_xi[i][q] + zeta * change.d_xi[i][q], u2 = change.m_eta[i][q] + zeta * change.d_eta[i][q];
+    Lanes slope[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        const double u1 = change.m_xi[i][q] + geometry.zeta[b][q] * change.d_xi[i][q];
+        const double u2 = change.m_eta[i][q] + geometry.zeta[b][q] * change.d_eta[i][q];
         for (int j = 0; j < 3; ++j)
-          spin[i][j] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
+          slope[i][j][q] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
       }
-      const bool empty = geometry.weight[b][q] == 0.0;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          gradient[i][j][q] = empty ? 0.0 : strain[b][component[i][j]][q] + 0.5 * (spin[i][j] - spin[j][i]);
+    const int filled = std::min(8, 4 * (layers_ - 2 * b));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        for (int q = 0; q < 8; ++q)
+          gradient[i][j][q] = strain[b][component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
+        for (int q = filled; q < 8; ++q) gradient[i][j][q] = 0.0;
+      }
+    for (int q = 0; q < 8; ++q) {
       const int layer = 2 * b + q / 4;
       specific_volume[q] = dilatation_[2 * batches_ * c + layer] / material_.rho0;
       layer_weight[layer] += geometry.weight[b][q];

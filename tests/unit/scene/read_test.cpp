@@ -167,10 +167,10 @@ TEST(Read, ShellsAreOneCellThick) {
   EXPECT_EQ(ring.structure->element, fem::ElementKind::shell);
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_through, 1);
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_along, 4);
-  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 3\n"
+  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 7\n"
                                     "planes = [{axis = \"y\", position = 1, side = \"low\"}]\n");
   EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{10, 1, 20}));
-  EXPECT_EQ(plate.structure->points_through, 3);
+  EXPECT_EQ(plate.structure->points_through, 7);
   EXPECT_EQ(plate.structure->planes[0].axis, 1);
   EXPECT_EQ(plate.structure->planes[0].position, 1.0);
   EXPECT_FALSE(plate.structure->planes[0].body_above);

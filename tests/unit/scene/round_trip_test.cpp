@@ -90,7 +90,7 @@ shape = {type = "tube", axis = "z", inner_radius = 0.04, outer_radius = 0.045, l
 cells = {through = 3, around = 40, along = 30}
 material = {base = "al-6061-t6", T_room = 300, taylor_quinney = 0.8, pressure = {C = 5000}, flow = {rate0 = 2, T_room = 301}}
 element = "shell"
-points_through = 3
+points_through = 4
 supports = [{face = "low", fixed = ["x", "z"]}, {face = "high"}]
 planes = [{axis = "x", position = -0.5}, {axis = "z", position = 2, side = "low"}]
 wet = ["inner", "outer"]
