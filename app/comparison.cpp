@@ -82,11 +82,17 @@ output::NamedNumbers tube(const scene::Scene& scene, const Probes& probes) {
   return output::tube_metrics(histories);
 }
 
+output::NamedNumbers taylor_bar(const scene::Scene& scene, const Simulation& simulation) {
+  const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
+  return output::taylor_bar_metrics(simulation.structure()->fields().position, rod.axis, rod.center, rod.high - rod.low);
+}
+
 }  // namespace
 
-output::NamedNumbers compare(const scene::Scene& scene, const Probes& probes) {
+output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes) {
   if (scene.comparison.kind == "rigid_cylinder") return rigid_cylinder(scene, probes);
   if (scene.comparison.kind == "tube") return tube(scene, probes);
+  if (scene.comparison.kind == "taylor_bar") return taylor_bar(scene, simulation);
   return {};
 }
 

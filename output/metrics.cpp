@@ -158,4 +158,35 @@ NamedNumbers tube_metrics(const TubeHistories& histories) {
   return out;
 }
 
+NamedNumbers taylor_bar_metrics(const std::vector<Vec3>& points, int axis, const Vec3& center, double initial_length,
+                                double skin) {
+  double low = forever, high = -forever;
+  for (const Vec3& x : points) {
+    low = std::min(low, x[axis] - skin);
+    high = std::max(high, x[axis] + skin);
+  }
+  struct Widest {
+    double height = nan, radius = -forever;
+  };
+  const auto widest = [&](double from, double to) {
+    Widest found;
+    for (const Vec3& x : points) {
+      const double height = x[axis] - low;
+      const double radius = std::hypot(x[(axis + 1) % 3] - center[(axis + 1) % 3], x[(axis + 2) % 3] - center[(axis + 2) % 3]) + skin;
+      if (height >= from && height <= to && radius > found.radius) found = {height, radius};
+    }
+    return found;
+  };
+  const double fifth = 0.2 * initial_length, slice = 0.05 * initial_length;
+  const Widest foot = widest(0.0, 0.1 * initial_length), below = widest(fifth - slice, fifth), above = widest(fifth, fifth + slice);
+  double radius = nan;
+  if (std::isfinite(below.radius) && std::isfinite(above.radius)) {
+    const double gap = above.height - below.height;
+    radius = gap > 0 ? below.radius + (fifth - below.height) / gap * (above.radius - below.radius) : below.radius;
+  }
+  return {{"final_length_m", points.empty() ? nan : high - low},
+          {"foot_radius_m", std::isfinite(foot.radius) ? foot.radius : nan},
+          {"radius_at_fifth_m", radius}};
+}
+
 }  // namespace undex::output

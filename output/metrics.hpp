@@ -4,6 +4,9 @@
 // and for a reference, so that their difference means something.
 #pragma once
 
+#include <vector>
+
+#include "core/vector.hpp"
 #include "output/run_record.hpp"
 #include "output/series.hpp"
 
@@ -46,5 +49,15 @@ struct TubeHistories {
 ///   cavitation_s, closure_s   as for the rigid cylinder's cavitation; then the first rise through 5 MPa
 ///   plastic_strain_60us, plastic_strain_150us
 NamedNumbers tube_metrics(const TubeHistories& histories);
+
+/// A round bar that has hit an anvil, from points of its deformed body [m] (nodes, particles): `axis` 0, 1 or 2 along the
+/// bar, `center` on its axis; the foot is the end with the smaller coordinate. `skin` [m] is how far the surface lies
+/// beyond the outermost points (half a spacing of particles, zero for nodes).
+///   final_length_m
+///   foot_radius_m           largest radius in the lowest tenth of the initial length (the mushroom's)
+///   radius_at_fifth_m       at a fifth of the initial length above the foot, between the widest points of a slice of a
+///                           twentieth below that height and of one above it; NaN where a slice has none
+NamedNumbers taylor_bar_metrics(const std::vector<Vec3>& points, int axis, const Vec3& center, double initial_length,
+                                double skin = 0.0);
 
 }  // namespace undex::output

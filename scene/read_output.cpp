@@ -92,14 +92,20 @@ void read_comparison(const TableReader& top, Draft& draft) {
   if (!node) return;
   const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
   table.read_choice<std::string>("kind", comparison.kind,
-                                 {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"}});
+                                 {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"},
+                                  {"taylor_bar", "taylor_bar"}});
   if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
     std::vector<std::string> names;
     for (const Probe& probe : draft.scene.probes) names.push_back(probe.name);
     if (std::find(names.begin(), names.end(), comparison.probe) == names.end())
       table.complain("probe", "comparison.probe: no probe '" + comparison.probe + "'" + suggestion(comparison.probe, names));
   }
-  if (comparison.kind != "none") table.need("probe", "name the probe that is compared");
+  if (comparison.kind == "taylor_bar") {
+    if (!draft.scene.structure || !std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh))
+      table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\"; there is none");
+  } else if (comparison.kind != "none") {
+    table.need("probe", "name the probe that is compared");
+  }
   if (std::string reference; table.read("reference", reference) && !reference.empty()) {
     const std::filesystem::path full = draft.scene.file.parent_path() / reference;
     std::error_code ignored;

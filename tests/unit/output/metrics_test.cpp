@@ -147,5 +147,30 @@ TEST(TubeMetrics, EveryRowOfTheReferenceIsAMetric) {
     EXPECT_TRUE(has(metrics, row.metric)) << row.metric;
 }
 
+TEST(TaylorBarMetrics, ShapeOfACloudOfPoints) {
+  // A cone-shaped foot on a straight shank, about an axis off the origin, standing at x = 2: radius 5 - h to h = 3, then 2.
+  const double length = 20.0;
+  std::vector<Vec3> points;
+  for (int layer = 0; layer <= 36; ++layer)
+    for (int ring = 0; ring <= 4; ++ring)
+      for (int turn = 0; turn < 16; ++turn) {
+        const double height = 0.5 * layer, radius = 0.25 * ring * std::max(2.0, 5.0 - height);
+        points.emplace_back(2.0 + height, 1.0 + radius * std::cos(0.125 * M_PI * turn), -1.0 + radius * std::sin(0.125 * M_PI * turn));
+      }
+  const auto value = [&](const std::vector<Vec3>& cloud, double initial, const char* name, double skin = 0.0) {
+    for (const auto& [key, number] : taylor_bar_metrics(cloud, 0, Vec3(0, 1, -1), initial, skin))
+      if (key == name) return number;
+    return -1.0;
+  };
+  EXPECT_NEAR(value(points, length, "final_length_m"), 18.0, 1e-12);
+  EXPECT_NEAR(value(points, length, "foot_radius_m"), 5.0, 1e-12);
+  EXPECT_NEAR(value(points, length, "radius_at_fifth_m"), 2.0, 1e-12);
+  EXPECT_NEAR(value(points, 10.0, "radius_at_fifth_m"), 3.0, 1e-12) << "on the cone";
+  EXPECT_NEAR(value(points, length, "final_length_m", 0.1), 18.2, 1e-12);
+  EXPECT_NEAR(value(points, length, "foot_radius_m", 0.1), 5.1, 1e-12);
+  EXPECT_TRUE(std::isnan(value({}, length, "final_length_m")));
+  EXPECT_TRUE(std::isnan(value({}, length, "radius_at_fifth_m")));
+}
+
 }  // namespace
 }  // namespace undex::output
