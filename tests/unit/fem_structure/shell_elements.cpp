@@ -294,6 +294,38 @@ TEST(ShellElements, FreeSheetKeepsBothMomentaAndEnergy) {
   }
 }
 
+TEST(ShellElements, PointValuesAreInterpolated) {
+  // Shares sum to one, stay within [0, 1] and give back a linear field between the outermost points.
+  for (int through = 0; through < 3; ++through) {
+    const Grid grid = sheet(through, {1, 1}, 0.5);
+    const auto elements = shells(grid, elastic(1.0, 1.0, 0.3), through, 5);
+    const double gauss[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
+    for (double a : {0.0, 0.3, 0.6, 1.0})
+      for (double b : {0.25, 0.5, 0.75})
+        for (double c : {0.0, 0.06, 0.2, 0.5, 0.8, 0.94}) {
+          std::array<double, 3> unit;
+          unit[through] = c;
+          unit[(through + 1) % 3] = a;
+          unit[(through + 2) % 3] = b;
+          const auto shares = elements.shares_at(unit);
+          ASSERT_EQ(shares.size(), 20u);
+          double total = 0.0, height = 0.0, across = 0.0;
+          for (int q = 0; q < 20; ++q) {
+            EXPECT_GE(shares[q], 0.0);
+            total += shares[q];
+            height += shares[q] * gauss[q / 4];
+            across += shares[q] * (q & 2 ? 1.0 : -1.0) / std::numbers::sqrt3;
+          }
+          EXPECT_NEAR(total, 1.0, 1e-14);
+          EXPECT_NEAR(height, std::max(2.0 * c - 1.0, gauss[0]), 1e-14);
+          EXPECT_NEAR(across, 2.0 * b - 1.0, 1e-14);
+        }
+    double whole = 0.0;
+    for (int q = 0; q < 20; ++q) whole += elements.mean_share(q);
+    EXPECT_NEAR(whole, 1.0, 1e-14);
+  }
+}
+
 TEST(ShellElements, RodsAreRefused) {
   Settings settings;
   settings.mesh = RodMesh{2, Vec3::Zero(), 0.1, 0.0, 1.0, 4, 8};
