@@ -88,6 +88,23 @@ struct ShellElements::Surface {
   /// Edges at eta = -1, +1 (derivative along xi), then xi = -1, +1 (along eta).
   double edge_m[4][3], edge_d[4][3];
 
+  /// The field halfway of a step that ended at x and displaced by u.
+  Surface(const Surface& x, const Surface& u) {
+    for (int i = 0; i < 3; ++i)
+      for (int q = 0; q < 8; ++q) {
+        m_xi[i][q] = x.m_xi[i][q] - 0.5 * u.m_xi[i][q];
+        m_eta[i][q] = x.m_eta[i][q] - 0.5 * u.m_eta[i][q];
+        d[i][q] = x.d[i][q] - 0.5 * u.d[i][q];
+        d_xi[i][q] = x.d_xi[i][q] - 0.5 * u.d_xi[i][q];
+        d_eta[i][q] = x.d_eta[i][q] - 0.5 * u.d_eta[i][q];
+      }
+    for (int a = 0; a < 4; ++a)
+      for (int i = 0; i < 3; ++i) {
+        corner_d[a][i] = x.corner_d[a][i] - 0.5 * u.corner_d[a][i];
+        edge_m[a][i] = x.edge_m[a][i] - 0.5 * u.edge_m[a][i];
+        edge_d[a][i] = x.edge_d[a][i] - 0.5 * u.edge_d[a][i];
+      }
+  }
   explicit Surface(const CellVectors& v) {
     constexpr int begin[4] = {0, 3, 0, 1}, end[4] = {1, 2, 3, 2};
     for (int i = 0; i < 3; ++i) {
@@ -388,16 +405,14 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
 
 bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
                                  double dt) {
-  CellVectors x_cell, x, u, middle;
+  CellVectors x_cell, u_cell, x, u;
   collect(positions, cells_[c], x_cell);
   turn_in(x_cell, x);
-  collect(displacements, cells_[c], middle);
-  turn_in(middle, u);
-  for (int i = 0; i < 3; ++i)
-    for (int a = 0; a < 8; ++a) middle[i][a] = x[i][a] - 0.5 * u[i][a];
+  collect(displacements, cells_[c], u_cell);
+  turn_in(u_cell, u);
 
   // Strain of the step in its midpoint configuration: metric changes are exact there for any rotation.
-  const Surface halfway(middle), change(u), now(x);
+  const Surface change(u), now(x), halfway(now, change);
   Geometry geometry, end;
   if (!find_geometry(halfway, geometry) || !find_geometry(now, end)) return false;
   Lanes strain[most_batches][6], stress[most_batches][6];
