@@ -123,6 +123,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "19:1: [coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one\n"},
       {"circle of materials", with(two_gases, "dimension = 1", "dimension = 1\nmaterials = {a = {base = \"b\"}, b = {base = \"a\"}}"),
        "the materials are based on each other in a circle; base one of them on the library\n"},
+      {"Taylor bar without a bar", two_gases + "[comparison]\nkind = \"taylor_bar\"\n",
+       "20:8: comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\"; there is none\n"},
       {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
        "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
       {"unknown key of a solid", with(impact, "velocity =", "veloctiy ="),
