@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/rigid_plane.hpp"
 #include "core/vector.hpp"
 #include "materials/solid.hpp"
 
@@ -50,13 +51,6 @@ struct PressureLoad {
   std::string face;
   std::vector<double> time;      ///< [s], increasing
   std::vector<double> pressure;  ///< [Pa]; held constant outside the table
-};
-
-/// Rigid half space that the body may touch and leave, without friction: its nodes stay on one side of a plane.
-struct RigidPlane {
-  int axis = 2;           ///< of its normal
-  double position = 0.0;  ///< [m]
-  bool body_above = true; ///< the nodes keep x[axis] >= position; else <=
 };
 
 enum class ElementKind {

@@ -166,6 +166,7 @@ ShellElements::ShellElements(const Grid& grid, const materials::Solid& material,
   for (auto& field : deviator_) field.assign(points, 0.0);
   plastic_strain_.assign(points, 0.0);
   temperature_.assign(points, material.T_room);
+  if (materials::can_fail(material)) damage_.assign(points, 0.0);
   weight_.resize(points);
   const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
   pressure_.assign(all_layers, rest.pressure);
@@ -422,6 +423,8 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
   // Stress deviators; the spin is that of the displacement itself.
   double deviatoric_work[2 * most_batches] = {}, layer_weight[2 * most_batches] = {}, opened[2 * most_batches] = {};
   double plastic_work = 0.0, most_strain = 0.0, volume = 0.0, all_opened = 0.0;
+  double intact[2 * most_batches];  // share of a layer's points that have not failed
+  std::fill_n(intact, 2 * most_batches, 1.0);
   for (int b = 0; b < batches_; ++b) {
     const auto& inverse = geometry.inverse[b];
     Lanes gradient[3][3], specific_volume;
@@ -433,6 +436,7 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
         for (int j = 0; j < 3; ++j)
           slope[i][j][q] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
       }
+    Lanes start_pressure;
     const int filled = std::min(8, 4 * (layers_ - 2 * b));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -453,8 +457,14 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
       for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][first + q];
       points.plastic_strain[q] = plastic_strain_[first + q];
       points.temperature[q] = temperature_[first + q];
+      start_pressure[q] = pressure_[2 * batches_ * c + 2 * b + q / 4];
     }
-    materials::advance_deviator(material_, gradient, specific_volume, dt, points, done);
+    if (!damage_.empty()) std::copy_n(&damage_[first], 8, points.damage);
+    materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
+    if (!damage_.empty()) {
+      std::copy_n(points.damage, 8, &damage_[first]);
+      for (int q = 0; q < 8; ++q) intact[2 * b + q / 4] -= 0.25 * (points.damage[q] >= materials::failed);
+    }
     for (int q = 0; q < 8; ++q) {
       double& weight = weight_[first + q];
       most_strain = std::max(most_strain, done.strain_norm[q]);
@@ -488,16 +498,27 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
     const double other = energy_[k] + deviatoric_work[layer] / reference_volume -
                          0.5 * (old_viscous + viscous_pressure_[c]) * swelling;
     auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[k] / material_.rho0);
-    for (int correction = 0; correction < 2; ++correction)
+    // Failed points carry no tension, as in the hexahedron.
+    const auto carried = [&](double law) {
+      return law < 0.0 ? intact[layer] * materials::carried_pressure(material_, law, 0.0) : law;
+    };
+    double pressure = carried(state.pressure);
+    for (int correction = 0; correction < 2; ++correction) {
       state = materials::evaluate(material_.pressure, material_.rho0, density,
-                                  (other - 0.5 * (old_pressure + state.pressure) * swelling) / material_.rho0);
-    pressure_[k] = state.pressure;
-    const double pressure_work = -0.5 * (old_pressure + state.pressure) * swelling;
+                                  (other - 0.5 * (old_pressure + pressure) * swelling) / material_.rho0);
+      pressure = carried(state.pressure);
+    }
+    if (materials::spalls(material_, state.pressure)) {
+      std::fill_n(&damage_[at(c, 4 * layer)], 4, materials::failed);
+      pressure = 0.0;
+    }
+    pressure_[k] = pressure;
+    const double pressure_work = -0.5 * (old_pressure + pressure) * swelling;
     energy_[k] = other + pressure_work;
     stored += deviatoric_work[layer] + reference_volume * pressure_work;
     bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;
     for (int i = 0; i < 3; ++i)
-      for (int q = 4 * (layer % 2); q < 4 * (layer % 2) + 4; ++q) stress[layer / 2][i][q] -= state.pressure;
+      for (int q = 4 * (layer % 2); q < 4 * (layer % 2) + 4; ++q) stress[layer / 2][i][q] -= pressure;
   }
   // What the lag of the enhanced strain did is not the nodes' work.
   const double old_residual = residual_[c];
@@ -587,7 +608,7 @@ double ShellElements::pressure(std::size_t cell) const {
 std::size_t ShellElements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& field : deviator_) values += field.size();
-  for (const auto* field : {&plastic_strain_, &temperature_, &weight_, &pressure_, &energy_, &dilatation_,
+  for (const auto* field : {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &energy_, &dilatation_,
                             &viscous_pressure_, &residual_, &bulk_})
     values += field->size();
   return shared_memory_bytes() + values * sizeof(double);

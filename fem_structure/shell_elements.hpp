@@ -37,6 +37,7 @@ class ShellElements final : public ElementSet {
   double pressure(std::size_t cell) const override;
   double plastic_strain(std::size_t cell, int q) const override { return plastic_strain_[at(cell, q)]; }
   double temperature(std::size_t cell, int q) const override { return temperature_[at(cell, q)]; }
+  double damage(std::size_t cell, int q) const override { return damage_.empty() ? 0.0 : damage_[at(cell, q)]; }
   std::size_t memory_bytes() const override;
 
  private:
@@ -67,6 +68,7 @@ class ShellElements final : public ElementSet {
   // State, per point: 8 batches_ a cell.
   std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
   std::vector<double> plastic_strain_, temperature_, weight_;
+  std::vector<double> damage_;  ///< empty where the material cannot fail
   // State, per layer: 2 batches_ a cell. Energy per reference volume [J/m^3], volume over reference volume.
   std::vector<double> pressure_, energy_, dilatation_;
   // State, per cell. Residual of the enhanced strain [J], bulk modulus [Pa].

@@ -101,8 +101,12 @@ void read_comparison(const TableReader& top, Draft& draft) {
       table.complain("probe", "comparison.probe: no probe '" + comparison.probe + "'" + suggestion(comparison.probe, names));
   }
   if (comparison.kind == "taylor_bar") {
-    if (!draft.scene.structure || !std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh))
-      table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\"; there is none");
+    const auto& solids = draft.scene.fluid.solids;
+    const bool rod = draft.scene.structure ? std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh)
+                                           : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
+    if (!rod)
+      table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
+                             "of [[solids]], a cylinder; there is none");
   } else if (comparison.kind != "none") {
     table.need("probe", "name the probe that is compared");
   }

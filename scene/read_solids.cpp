@@ -79,7 +79,7 @@ void read_solid_scheme(const TableReader& top, Draft& draft) {
 
 void read_plane(const Node& node, std::size_t index, Draft& draft) {
   const TableReader table(node, "planes." + std::to_string(index), "planes", draft.scene.fluid.dimension, draft.report);
-  sph::RigidPlane plane;
+  RigidPlane plane;
   if (table.need("axis", "say across which axis the plane lies, e.g. axis = \"z\"") && table.read_axis("axis", plane.axis) &&
       plane.axis >= table.dimension())
     table.complain("axis", table.path_of("axis") + ": the scene has dimension = " + std::to_string(table.dimension()) +

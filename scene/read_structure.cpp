@@ -192,19 +192,6 @@ void read_loads(const TableReader& table, const std::vector<std::string>& faces,
   }
 }
 
-void read_planes(const TableReader& table, fem::Settings& structure) {
-  const auto nodes = table.tables("planes");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const TableReader one(*nodes[i], table.path_of("planes") + '.' + std::to_string(i), "planes", 3, table.report());
-    fem::RigidPlane plane;
-    one.need("axis", "name the axis that is normal to the plane");
-    one.read_axis("axis", plane.axis);
-    one.read("position", plane.position);
-    one.read_choice<bool>("side", plane.body_above, {{"high", true}, {"low", false}});
-    structure.planes.push_back(plane);
-  }
-}
-
 }  // namespace
 
 void read_structure(Draft& draft) {
@@ -242,7 +229,7 @@ void read_structure(Draft& draft) {
       draft.structure_shape_good ? mesh_faces(structure.mesh, draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
-  read_planes(table, structure);
+  structure.planes = draft.scene.fluid.planes;
   if (table.read("wet", structure.wet_faces))
     for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
   table.read("velocity", structure.initial_velocity);

@@ -103,7 +103,7 @@ std::vector<Section> make_schema() {
 
       {"structure",
        {word("name"), word("shape"), word("cells"), length("cell_size"), word("element"), between("points_through", 2, 10),
-        word("material"), word("supports"), word("planes"), word("wet"), word("loads"), speed, above("courant", 0, 1), between("linear_viscosity", 0, 10),
+        word("material"), word("supports"), word("wet"), word("loads"), speed, above("courant", 0, 1), between("linear_viscosity", 0, 10),
         between("quadratic_viscosity", 0, 100)}},
       {"structure.tube",
        {word("type"), word("axis"), position("center"), length("inner_radius"), length("outer_radius"),
@@ -116,7 +116,6 @@ std::vector<Section> make_schema() {
       {"cells.rod", {between("radial", 2, 1000), between("along", 1, 100000)}},
       {"cells.plate", {between("x", 1, 100000), between("y", 1, 100000), between("z", 1, 100000)}},
       {"supports", {word("face"), word("fixed")}},
-      {"planes", {word("axis"), position("position"), word("side")}},
       {"loads", {word("face"), any("time", "s"), any("pressure", "Pa")}},
       {"solids",
        {word("name"), word("shape"), word("subtract"), word("material"), word("description"), length("spacing"), word("lattice"),

@@ -286,12 +286,6 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
     writer.put("face", support.face);
     writer.axes("fixed", support.fixed);
   }
-  for (const fem::RigidPlane& plane : structure.planes) {
-    writer.table("[[structure.planes]]", "planes");
-    writer.axis("axis", plane.axis);
-    writer.put("position", plane.position);
-    writer.put("side", plane.body_above ? "high" : "low");
-  }
   for (const fem::PressureLoad& load : structure.loads) {
     writer.table("[[structure.loads]]", "loads");
     writer.put("face", load.face);
@@ -331,7 +325,10 @@ void put_solids(Writer& writer, const sph::Settings& fluid) {
   writer.put("beta", numerics.beta);
   writer.put("artificial_stress", numerics.artificial_stress);
   for (const sph::SolidBody& solid : fluid.solids) put_solid(writer, solid);
-  for (const sph::RigidPlane& plane : fluid.planes) {
+}
+
+void put_planes(Writer& writer, const std::vector<RigidPlane>& planes) {
+  for (const RigidPlane& plane : planes) {
     writer.table("[[planes]]", "planes");
     writer.axis("axis", plane.axis);
     writer.put("position", plane.position);
@@ -392,6 +389,7 @@ std::string to_toml(const Scene& scene) {
     writer.set_dimension(dimension);
   }
   if (!scene.fluid.solids.empty()) put_solids(writer, scene.fluid);
+  put_planes(writer, scene.fluid.planes);
   if (scene.structure || !scene.fluid.solids.empty()) {
     writer.table("[coupling]", "coupling");
     writer.put("slip", scene.coupling.free_slip);

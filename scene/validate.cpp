@@ -111,8 +111,9 @@ class Validator {
                                                 "either finite elements or particles; remove one of the two");
     if (solids && draft_.dimension_good && dimension_ == 1)
       draft_.report.add(*draft_.solid_nodes[0], "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
-    if (!solids && !draft_.plane_nodes.empty())
-      draft_.report.add(*draft_.plane_nodes[0], "[[planes]] stop solids only, and the scene has no [[solids]]; for fluid take [[walls]]");
+    if (!solids && !draft_.structure_node && !draft_.plane_nodes.empty())
+      draft_.report.add(*draft_.plane_nodes[0], "[[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid "
+                                                "take [[walls]]");
     if (draft_.body_nodes.empty() && !draft_.wall_nodes.empty())
       draft_.report.add(*draft_.wall_nodes[0], "walls without [[bodies]]: add the fluid that they hold, or remove them");
   }
@@ -324,7 +325,7 @@ class Validator {
   /// No solid may start beyond a rigid plane.
   void planes() {
     for (std::size_t k = 0; k < fluid_.planes.size(); ++k) {
-      const sph::RigidPlane& plane = fluid_.planes[k];
+      const RigidPlane& plane = fluid_.planes[k];
       if (plane.axis >= dimension_) continue;
       for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
         if (!usable_[fluid_.bodies.size() + i]) continue;

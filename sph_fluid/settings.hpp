@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
 #include "materials/burn.hpp"
 #include "materials/library.hpp"
@@ -143,13 +144,6 @@ struct SolidNumerics {
   double hourglass = 0.1;         ///< total Lagrangian: stiffness of what no deformation gradient sees, in shear moduli
   double alpha = 1.0, beta = 2.0; ///< updated Lagrangian: viscosity of pairs (solid_schemes.hpp)
   double artificial_stress = 0.3; ///< updated Lagrangian: share of a tension that repels particles nearer than a spacing
-};
-
-/// A rigid, smooth plane that solids cannot pass; they may leave it again.
-struct RigidPlane {
-  int axis = 0;
-  double position = 0;            ///< [m]
-  bool body_above = true;         ///< do the bodies lie at x[axis] >= position?
 };
 
 struct Settings {

@@ -116,7 +116,7 @@ class RingModel {
         volume[q] = dilatation_ / solid_.rho0;
       }
       materials::SolidStep done;
-      materials::advance_deviator(solid_, gradient, volume, dt, trial, done);
+      materials::advance_deviator(solid_, gradient, volume, {}, dt, trial, done);
       const double opened = radial_strain + hoop_strain;
       trial_dilatation = dilatation_ * (1.0 + 0.5 * opened) / (1.0 - 0.5 * opened);
       const double p = materials::evaluate(solid_.pressure, solid_.rho0, solid_.rho0 / trial_dilatation, 0.0).pressure;

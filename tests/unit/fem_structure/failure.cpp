@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "bodies.hpp"
+#include "fem_structure/shell_elements.hpp"
 
 namespace undex::fem::testing {
 namespace {
@@ -131,6 +132,41 @@ TEST(Failure, SpallTakesTensionAndDeviatorForGood) {
   EXPECT_LT((cube.elements.stress(0, 0) + cube.elements.pressure(0) * Mat3::Identity()).norm(), 1e-3);
   for (int i = -50; i <= 0; ++i) cube.stretch(1.0 + 1e-4 * i);
   EXPECT_NEAR(cube.elements.elastic_energy() + cube.elements.plastic_work(), cube.work, 1e-3 * cube.work);
+}
+
+TEST(Failure, AShellSpallsLayerByLayerAndKeepsItsAccount) {
+  materials::Solid solid = metal(materials::Elastic{});
+  solid.spall = materials::Spall{.strength = 1e9, .mode = materials::Spall::Mode::fail};
+  const Grid grid = Mesher(plate(Vec3(0, 0, 0), Vec3(1, 1, 0.1), {1, 1, 1}, elastic(1, 1, 0.3))).grid();
+  ShellElements shell(grid, solid, 0.0, 0.0, 2, 4);
+  Nodes x = grid.nodes, force(8, Vec3::Zero());
+  double work = 0.0;
+  bool partly = false;
+  for (int i = 1; i <= 400; ++i) {
+    // Bent as it is stretched: the layers on one side strain more.
+    const double a = 5e-5 * i;
+    Nodes u(8);
+    const Nodes old_force = force;
+    for (std::size_t n = 0; n < 8; ++n) {
+      const Vec3& X = grid.nodes[n];
+      const Vec3 to(X[0] * (1.0 + a * (0.5 + 10.0 * X[2])), X[1] * (1.0 + a * (0.5 + 10.0 * X[2])), X[2]);
+      u[n] = to - x[n];
+      x[n] = to;
+    }
+    ASSERT_EQ(shell.advance(x, u, 1e-6, force), -1);
+    for (std::size_t n = 0; n < 8; ++n) work += 0.5 * (old_force[n] + force[n]).dot(u[n]);
+    int broken = 0;
+    for (int q = 0; q < shell.points_per_cell(); ++q) broken += shell.damage(0, q) >= materials::failed;
+    EXPECT_EQ(broken % 4, 0);
+    partly |= broken > 0 && broken < shell.points_per_cell();
+    if (i == 400) {
+      EXPECT_EQ(broken, shell.points_per_cell());
+    }
+  }
+  EXPECT_TRUE(partly);
+  EXPECT_EQ(shell.pressure(0), 0.0);
+  EXPECT_GT(work, 0.0);
+  EXPECT_NEAR(shell.elastic_energy() + shell.plastic_work(), work, 5e-3 * work);
 }
 
 TEST(Failure, ACellBreaksByEighths) {

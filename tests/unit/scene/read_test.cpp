@@ -168,7 +168,7 @@ TEST(Read, ShellsAreOneCellThick) {
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_through, 1);
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_along, 4);
   const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 7\n"
-                                    "planes = [{axis = \"y\", position = 1, side = \"low\"}]\n");
+                                    "[[planes]]\naxis = \"y\"\nposition = 1\nfree_side = \"below\"\n");
   EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{10, 1, 20}));
   EXPECT_EQ(plate.structure->points_through, 7);
   EXPECT_EQ(plate.structure->planes[0].axis, 1);
