@@ -38,10 +38,10 @@ struct SolidRow {
   double corrected[9], stress[6], strain[6], shear_sound;
 };
 
-/// What a solid particle learns from its body's others: velocity gradient d v_a/d x_b at 3a + b [1/s], the correction B (xx,
-/// yy, zz, xy, yz, zx) [-], and the body's outward border, sum_j V_j grad W_ij, zero inside [1/m].
+/// What a solid particle learns from its body's others: velocity gradient d v_a/d x_b at 3a + b [1/s], and the correction B
+/// (xx, yy, zz, xy, yz, zx) [-].
 struct DeformationRow {
-  double gradient[9], correction[6], border[3];
+  double gradient[9], correction[6];
 };
 
 /// What a pair reads of a wall's dummy particle.

@@ -30,7 +30,7 @@ SolidPairs::SolidPairs(const Settings& settings, std::vector<Range> ranges)
   solid_.resize(n);
   if (updated_) deformation_.resize(n);
   sums_.resize(n);
-  outward_.assign(n, Vec3::Zero());
+  if (updated_ && !settings.bodies.empty()) inverse_deformation_.assign(n, Mat3::Identity());
   scratch_.resize(std::max(omp_get_max_threads(), settings.numerics.threads));
 }
 
@@ -153,7 +153,6 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
       for (std::uint32_t k = first; k < last; ++k) {
         const DeformationRow& row = deformation_[k];
         const std::uint32_t i = particle_[k];
-        outward_[i] = -Vec3(row.border[0], row.border[1], row.border[2]).stableNormalized();
         if (dt <= 0.0) continue;
         Mat3 back;  // I - G
         for (int a = 0; a < 3; ++a)
@@ -161,6 +160,7 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
         // A step that would compress to nothing is not one that a stable step allows; the stop names it.
         const double shrink = std::max(back.determinant(), 1e-3);
         step.append(i, back, Mat3::Identity(), p.rho[i] * shrink);
+        if (!inverse_deformation_.empty()) inverse_deformation_[i] *= back;
       }
       if (dt > 0.0) update_stress(range.body->material, viscosity, step, dt, p);
     }
@@ -222,7 +222,8 @@ void SolidPairs::hand_back(SolidParticles& p) const {
 
 std::size_t SolidPairs::memory_bytes() const {
   std::size_t bytes = rows_.size() * (sizeof(std::uint32_t) + 3 * sizeof(double) + sizeof(FluidRow) + sizeof(SolidRow) +
-                                      sizeof(SumRow) + sizeof(Vec3)) +
+                                      sizeof(SumRow)) +
+                      inverse_deformation_.size() * sizeof(Mat3) +
                       deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
   return bytes;

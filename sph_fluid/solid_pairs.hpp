@@ -31,8 +31,8 @@ class SolidPairs {
   /// [m/s^2] predicts velocities for the viscosity.
   void add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
 
-  /// Outward normal of a particle at its body's border; zero inside [-].
-  const Vec3& outward(std::uint32_t particle) const { return outward_[particle]; }
+  /// Inverse deformation gradient of a particle of an updated body, d X_a/d x_b; kept where there is water to see its surface.
+  const Mat3& inverse_deformation(std::uint32_t particle) const { return inverse_deformation_[particle]; }
   long long interactions() const { return interaction_sum_; }
   std::size_t memory_bytes() const;
 
@@ -59,7 +59,7 @@ class SolidPairs {
   std::vector<SolidRow> solid_;
   std::vector<DeformationRow> deformation_;
   std::vector<SumRow> sums_;
-  std::vector<Vec3> outward_;
+  std::vector<Mat3> inverse_deformation_;          ///< empty where there is no water
   std::vector<long long> interactions_;
   std::vector<Scratch> scratch_;
   long long interaction_sum_ = 0;

@@ -237,11 +237,10 @@ void Solids::move_wall(MovingWall& wall, double ahead) const {
     wall.velocity[k] = p.v[i] + ahead * s.acceleration[i];
     wall.volume[k] = p.mass[i] / p.rho[i];
     const SolidGroup& group = s.group_of(i);
-    wall.normal[k] = s.wet_normal[k];
-    if (group.lagrangian)  // area vectors go with the inverse transpose
-      wall.normal[k] = (group.lagrangian->deformation(i).inverse().transpose() * s.wet_normal[k]).normalized();
-    else if (s.pairs && s.pairs->outward(i).squaredNorm() > 0.0)
-      wall.normal[k] = -s.pairs->outward(i);
+    // Area vectors go with the inverse transpose.
+    const Mat3 inverse =
+        group.lagrangian ? Mat3(group.lagrangian->deformation(i).inverse()) : s.pairs->inverse_deformation(i);
+    wall.normal[k] = (inverse.transpose() * s.wet_normal[k]).normalized();
   }
 }
 

@@ -33,15 +33,13 @@ struct VelocityGradient {
   struct Sums {
     V m[6] = {};       // xx, yy, zz, xy, yz, zx of sum V_j d d^T F, negative
     V v[9] = {};       // sum V_j (v_j - v_i)_a (d)_b F at 3a + b
-    V border[3] = {};  // sum V_j d F
-    static constexpr int count = 18;
+    static constexpr int count = 15;
     static constexpr bool is_maximum(int) { return false; }
 
     template <class Visit>
     UNDEX_INLINE void each(Visit visit) {
       for (int k = 0; k < 6; ++k) visit(m[k], k);
       for (int k = 0; k < 9; ++k) visit(v[k], 6 + k);
-      for (int k = 0; k < 3; ++k) visit(border[k], 15 + k);
     }
   };
   static constexpr bool symmetric = false;
@@ -69,9 +67,6 @@ struct VelocityGradient {
     s.v[6] += uz * wx;
     s.v[7] += uz * wy;
     s.v[8] += uz * wz;
-    s.border[0] += wx;
-    s.border[1] += wy;
-    s.border[2] += wz;
   }
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 
@@ -84,8 +79,9 @@ struct VelocityGradient {
       const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
       const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
       const double determinant = xx * a + xy * b + zx * c;
-      // A corner of a lattice has 1/8; below, the correction fades out, before the inverse of next to nothing can do harm.
-      const double trust = determinant < 0.1 ? determinant > 0.0 ? 100.0 * determinant * determinant : 0.0 : 1.0;
+      // A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
+      constexpr double least = 0.015;
+      const double part = determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
       const double inverse = determinant > 0.0 ? trust / determinant : 0.0, rest = 1.0 - trust;
       double* B = out[l].correction;
       B[0] = a * inverse + rest, B[1] = d * inverse + rest, B[2] = f * inverse + rest;
@@ -95,7 +91,6 @@ struct VelocityGradient {
         out[l].gradient[3 * r] = gx * B[0] + gy * B[3] + gz * B[5];
         out[l].gradient[3 * r + 1] = gx * B[3] + gy * B[1] + gz * B[4];
         out[l].gradient[3 * r + 2] = gx * B[5] + gy * B[4] + gz * B[2];
-        out[l].border[r] = s[15 + r][l];
       }
     }
   }
