@@ -4,8 +4,8 @@
 //   f_i = sum_j (A_i + A_j) w_ij + s_ij (k_i + k_j) x_ij,  A_i = V_i P_i M_i^-1 - k_i F_i
 // P = J sigma F^-T being the first Piola-Kirchhoff stress. The terms with k are the exact derivative of
 //   U = sum_i k_i/2 sum_j s_ij |F_i X_ij - x_ij|^2,  s_ij = w_ij . X_ij/|X_ij|^2 > 0,
-// the stiffness of motions that no F sees (the zero-energy modes of nodal integration; the idea is that of Silling 2017,
-// doi 10.1016/j.cma.2017.05.002, and Ganzenmueller 2015, doi 10.1016/j.cma.2014.12.005). F_i minimises the sum for fixed
+// the stiffness of motions that no F sees (the zero-energy modes of nodal integration; compare Silling 2017,
+// doi 10.1016/j.cma.2017.03.043, and Ganzenmueller 2015, doi 10.1016/j.cma.2014.12.005). F_i minimises the sum for fixed
 // weights s_ij, which is why no term with dF/dx is left over. k follows the secant of the flow curve, so that plastic flow
 // is not held up: k = hourglass G/(1 + 3 G eps_p/Y).
 #pragma once
