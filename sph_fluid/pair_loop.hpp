@@ -22,7 +22,7 @@ PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision);
 struct SolidLoops {
   void (*deformation)(const PairInput&, const PairOutput&);
   void (*forces)(const PairInput&, const PairOutput&);
-  void (*contact_rate)(const PairInput&, const PairOutput&);
+  void (*contact_overlap)(const PairInput&, const PairOutput&);
   void (*contact_forces)(const PairInput&, const PairOutput&);
 };
 SolidLoops solid_loops();

@@ -18,7 +18,7 @@ namespace undex::sph {
   void riemann_rates(const PairInput&, const PairOutput&);                                                     \
   void solid_deformation(const PairInput&, const PairOutput&);                                                 \
   void solid_forces(const PairInput&, const PairOutput&);                                                      \
-  void contact_rate(const PairInput&, const PairOutput&);                                                      \
+  void contact_overlap(const PairInput&, const PairOutput&);                                                   \
   void contact_forces(const PairInput&, const PairOutput&);                                                    \
   template <class Kernel, class T>                                                                             \
   PairLoops loops(SchemeName scheme, const char* name) {                                                       \
@@ -96,9 +96,9 @@ PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision) 
 
 SolidLoops solid_loops() {
   switch (machine_level()) {
-    case 4: return {&v4::solid_deformation, &v4::solid_forces, &v4::contact_rate, &v4::contact_forces};
-    case 3: return {&v3::solid_deformation, &v3::solid_forces, &v3::contact_rate, &v3::contact_forces};
-    default: return {&v2::solid_deformation, &v2::solid_forces, &v2::contact_rate, &v2::contact_forces};
+    case 4: return {&v4::solid_deformation, &v4::solid_forces, &v4::contact_overlap, &v4::contact_forces};
+    case 3: return {&v3::solid_deformation, &v3::solid_forces, &v3::contact_overlap, &v3::contact_forces};
+    default: return {&v2::solid_deformation, &v2::solid_forces, &v2::contact_overlap, &v2::contact_forces};
   }
 }
 

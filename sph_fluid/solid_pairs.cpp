@@ -50,8 +50,8 @@ void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& 
   if (updated_) run(loops_.deformation, in);
   std::fill(sums_.begin(), sums_.end(), SumRow{});
   if (contact) {
-    run(loops_.contact_rate, input(contact_views_));
-    grow_contact(particles, dt);
+    run(loops_.contact_overlap, input(contact_views_));
+    find_contact(particles, dt > 0.0);
   }
   if (updated_) update_stresses(particles, dt);
   fill_rows(particles, acceleration, dt);
@@ -61,14 +61,16 @@ void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& 
   hand_back(particles);
 }
 
-/// The contact pressure follows what closes in; without anybody near there is none.
-void SolidPairs::grow_contact(SolidParticles& p, double dt) {
+/// The contact pressure of the present overlap. Bodies that touch at the start do so without pressure.
+void SolidPairs::find_contact(SolidParticles& p, bool started) {
   for (const Range& range : ranges_) {
     const double modulus = materials::bulk_modulus(range.body->material) + 4.0 / 3.0 * range.body->material.shear_modulus;
 #pragma omp parallel for schedule(static)
     for (std::uint32_t k = range.begin; k < range.end; ++k) {
-      double& q = p.contact_pressure[particle_[k]];
-      q = sums_[k].heat > 0.0 ? std::max(0.0, q + modulus * sums_[k].compression * dt) : 0.0;
+      const std::uint32_t i = particle_[k];
+      const double overlap = sums_[k].compression;
+      p.contact_reference[i] = started ? std::min(p.contact_reference[i], overlap) : overlap;
+      p.contact_pressure[i] = modulus * (overlap - p.contact_reference[i]);
     }
   }
 }

@@ -42,7 +42,7 @@ class SolidPairs {
   void run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
-  void grow_contact(SolidParticles& particles, double dt);
+  void find_contact(SolidParticles& particles, bool started);
   void hand_back(SolidParticles& particles) const;
 
   const Settings& settings_;

@@ -22,6 +22,7 @@ struct SolidParticles {
   std::vector<double> energy;                 ///< specific internal energy [J/kg]
   std::vector<double> plastic_energy, viscous_energy;  ///< the parts of it that are gone [J/kg]
   std::vector<double> contact_pressure;       ///< with other bodies (solid_schemes.hpp) [Pa]
+  std::vector<double> contact_reference;      ///< least overlap with other bodies so far [-]
   std::vector<double> sound;                  ///< longitudinal wave speed [m/s]
 
   // What the last evaluation gave.

@@ -3,10 +3,10 @@
 //   SolidForces       f_i = sum_j V_i V_j (sigma_i B_i + sigma_j B_j) grad W_ij, the exact derivative of the power of the
 //                     stresses with L (Bonet and Lok 1999, doi 10.1016/S0045-7825(99)00051-1), with a viscosity and an
 //                     artificial stress, both along the pair: momentum and angular momentum are conserved
-//   ContactRate       how fast particles of other bodies close in on one: D_i = sum_j V_j v_ij . grad W_ij
-//   ContactForces     f_i = -sum_j V_i V_j (q_i + q_j) grad W_ij and a damping, q >= 0 being the contact pressure that has
-//                     grown by dq = K D dt: the bodies touch through a layer as stiff as they are, and a spacing thick, that
-//                     pushes and never pulls. Its stored energy is sum V q^2/(2 K), exactly what the forces take
+//   ContactOverlap    how far other bodies reach into a particle's surroundings: C_i = sum_j V_j W_ij
+//   ContactForces     f_i = -sum_j V_i V_j (q_i + q_j) grad W_ij and a damping, q_i = K (C_i - C_ref) >= 0: the bodies touch
+//                     through a layer as stiff as they are, and a spacing thick, that pushes and never pulls. The forces are
+//                     the exact derivative of its energy, sum V q^2/(2 K). C_ref is the least overlap so far
 // The viscosity is Monaghan's, but on the jump that is left of v_ij . e when the velocity gradients of both sides have
 // carried it to the middle (as riemann_scheme.hpp does), approaching or not, and with the speed of shear waves: none in
 // smooth motion, all of it where neighbours move against each other unseen by any gradient. (Shocks have their bulk viscosity.)
@@ -175,9 +175,9 @@ struct SolidForces {
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 };
 
-/// What closes in on a particle: `compression` is D, `heat` the share of the particle's surroundings that is other bodies'.
+/// `compression` is the overlap C.
 template <class T>
-struct ContactRate {
+struct ContactOverlap {
   using V = Vec<T>;
   using State = FluidState<V>;
   using Wall = NoWall<V>;
@@ -185,15 +185,14 @@ struct ContactRate {
   static constexpr bool symmetric = true;
   static constexpr Partners partners = Partners::other_bodies;
 
-  explicit ContactRate(const PairInput&) {}
+  explicit ContactOverlap(const PairInput&) {}
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    const V D = pair.F * ((i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz);
-    si.compression += j.volume * D;
-    sj.compression += i.volume * D;
-    const V share = -pair.F * pair.r2;
-    si.heat += j.volume * share;
-    sj.heat += i.volume * share;
+    // Wendland's W from his F: both are powers of s = 1 - r/(2h).
+    const V r2 = pair.r2 + T(1e-30), q = r2 * reciprocal_sqrt(r2) * reciprocal(pair.h);
+    const V W = T(-0.2) * pair.F * (pair.h * pair.h) * (T(1) - T(0.5) * q) * (2 * q + T(1));
+    si.compression += j.volume * W;
+    sj.compression += i.volume * W;
   }
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 };
