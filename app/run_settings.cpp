@@ -103,11 +103,14 @@ ResolvedScene read_resolved(const std::string& text, const std::string& file) {
       result.probe_order.push_back(name);
     }
   if (const Node* comparison = root.find("comparison")) result.compared_probe = text_at(*comparison, "probe");
-  if (const Node* structure = root.find("structure"))
-    if (const Node* shape = structure->find("shape")) {
-      const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
-      if (type == "tube" || type == "rod") result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
-    }
+  // What a structure or, in particles, the first solid is round about.
+  const Node *body = root.find("structure"), *solids = root.find("solids");
+  if (!body && solids && !solids->items.empty()) body = &solids->items[0];
+  if (const Node* shape = body ? body->find("shape") : nullptr) {
+    const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
+    if (type == "tube" || type == "rod" || type == "cylinder")
+      result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+  }
   return result;
 }
 

@@ -21,7 +21,7 @@ const std::string* find(const RunSettings& settings, const std::string& key) {
 int rank(const std::string& key) {
   const auto is = [&](const char* end) { return key == end || key.ends_with(std::string(".") + end); };
   if (key == "name") return 0;
-  if (is("method") || is("element") || is("formulation")) return 1;
+  if (is("method") || is("element") || is("description")) return 1;
   if (key == "resolution.spacing") return 2;
   if (is("spacing")) return 3;
   if (is("cells")) return 4;
