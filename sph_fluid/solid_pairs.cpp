@@ -40,7 +40,6 @@ SolidPairs::~SolidPairs() {
 
 void SolidPairs::run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in) {
   pass(in, {sums_.data(), nullptr, interactions_.data()});
-  for (const long long count : interactions_) interaction_sum_ += count;
 }
 
 void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt) {

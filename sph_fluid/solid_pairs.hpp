@@ -33,7 +33,6 @@ class SolidPairs {
 
   /// Inverse deformation gradient of a particle of an updated body, d X_a/d x_b; kept where there is water to see its surface.
   const Mat3& inverse_deformation(std::uint32_t particle) const { return inverse_deformation_[particle]; }
-  long long interactions() const { return interaction_sum_; }
   std::size_t memory_bytes() const;
 
  private:
@@ -62,7 +61,6 @@ class SolidPairs {
   std::vector<Mat3> inverse_deformation_;          ///< empty where there is no water
   std::vector<long long> interactions_;
   std::vector<Scratch> scratch_;
-  long long interaction_sum_ = 0;
 };
 
 }  // namespace undex::sph

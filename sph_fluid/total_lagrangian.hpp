@@ -34,7 +34,6 @@ class TotalLagrangian {
   double hourglass_energy() const;  ///< [J]
   const Mat3& deformation(std::uint32_t particle) const { return deformation_[particle - begin_]; }
   std::size_t memory_bytes() const;
-  long long interactions() const { return static_cast<long long>(neighbours_.size()); }  ///< of an evaluation, directed
 
  private:
   struct Neighbour {
