@@ -40,6 +40,15 @@ std::vector<Fluid> make_fluids() {
                       UNDEX_PAPER
                       ", eq. 28 with its constants; plain cut-off at p_floor in place of the mixture"));
 
+  TaitWater::Parameters isentropic;
+  isentropic.cavitation = Cavitation::isentropic;
+  isentropic.mixture.density_ratio = 2.31e-5;
+  sets.push_back({"water-tait-isentropic",
+                  "Liquid: " UNDEX_PAPER
+                  ", eq. 28 with its constants; mixture: Liu, Khoo, Xie 2004, J. Comput. Phys. 201, 80; saturated steam of "
+                  "25 C, 0.0231 kg/m^3 and gamma 1.33, recalled, not read; initial_void is a choice of ours",
+                  TaitWater(isentropic), isentropic.rho0});
+
   const MieGruneisenWater::Parameters steinberg;
   sets.push_back(
       {"water-steinberg",
@@ -231,6 +240,11 @@ Table rows(const TaitWater& law) {
                    {"density_ratio [-]", p.mixture.density_ratio},
                    {"vapour_sound [m/s]", p.mixture.vapour_sound},
                    {"liquid_sound [m/s]", p.mixture.liquid_sound}});
+  if (p.cavitation == Cavitation::isentropic)
+    append(table, {{"p_sat [Pa]", p.mixture.p_sat},
+                   {"density_ratio [-]", p.mixture.density_ratio},
+                   {"vapour_gamma [-]", p.vapour_gamma},
+                   {"initial_void [-]", p.initial_void}});
   if (p.cavitation != Cavitation::none) append(table, {{"p_floor [Pa]", p.p_floor}});
   return table;
 }

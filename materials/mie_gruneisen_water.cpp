@@ -17,9 +17,9 @@ MieGruneisenWater::MieGruneisenWater(const Parameters& parameters) : p_(paramete
          << p_.C0;
     throw std::invalid_argument(text.str());
   }
-  if (p_.cavitation == Cavitation::schmidt)
+  if (p_.cavitation == Cavitation::schmidt || p_.cavitation == Cavitation::isentropic)
     throw std::invalid_argument(
-        "MieGruneisenWater: the Schmidt mixture belongs to the Tait law; use cavitation 'cutoff' or 'none'");
+        "MieGruneisenWater: cavitating mixtures belong to the Tait law; use cavitation 'cutoff' or 'none'");
   stiffness_ = p_.rho0 * p_.C0 * p_.C0;
   for (double low = 0.0; low < largest_compression; low += 1e-3) {
     double high = low + 1e-3;

@@ -17,6 +17,7 @@ enum class Cavitation {
   cutoff,   ///< pressure held at `p_floor`
   schmidt,  ///< modified Schmidt mixture (Chen et al. 2019, eqs 31-33), made continuous with the liquid law
             ///< at p_sat
+  isentropic,  ///< liquid and vapour in equilibrium of pressure, each on its isentrope (isentropic_mixture.hpp)
 };
 
 /// Square root of a squared sound speed [m^2/s^2], held at or above 1 mm/s. Time steps and impedances divide

@@ -42,9 +42,25 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   const SchmidtMixture& mixture = p_.mixture;
   require(mixture.density_ratio > 0 && mixture.density_ratio < 1, "density_ratio must lie between 0 and 1",
           mixture.density_ratio);
+  require(mixture.p_sat > p_.p_floor, "p_sat [Pa] must exceed p_floor", mixture.p_sat);
+  if (p_.cavitation == Cavitation::isentropic) {
+    require(p_.p_floor > 0, "p_floor [Pa] must be positive with the isentropic mixture", p_.p_floor);
+    require(p_.vapour_gamma > 1, "vapour_gamma must exceed 1", p_.vapour_gamma);
+    require(p_.initial_void > 0 && p_.initial_void < 1, "initial_void must lie between 0 and 1", p_.initial_void);
+    rho_limit_ = liquid_density(mixture.p_sat);
+    liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
+    rho_vapour_ = mixture.density_ratio * rho_limit_;
+    isentropic_ = IsentropicMixture({mixture.p_sat, rho_limit_, p_.N, p_.B - p_.A, rho_vapour_, p_.vapour_gamma, p_.initial_void});
+    p_lowest_ = p_.p_floor;
+    rho_wet_ = isentropic_.density(mixture.p_sat);
+    rho_floor_ = isentropic_.density(p_lowest_);
+    energy_limit_ = liquid_energy(rho_limit_);
+    energy_wet_ = energy_limit_ + mixture.p_sat * (1.0 / rho_limit_ - 1.0 / rho_wet_);
+    energy_floor_ = energy_wet_ + isentropic_.energy(p_lowest_);
+    return;
+  }
   require(mixture.vapour_sound > 0, "vapour_sound [m/s] must be positive", mixture.vapour_sound);
   require(mixture.liquid_sound > 0, "liquid_sound [m/s] must be positive", mixture.liquid_sound);
-  require(mixture.p_sat > p_.p_floor, "p_sat [Pa] must exceed p_floor", mixture.p_sat);
   rho_limit_ = liquid_density(mixture.p_sat);
   liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
   rho_vapour_ = mixture.density_ratio * rho_limit_;
@@ -60,6 +76,11 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   energy_floor_ = mixture_energy(rho_floor_);
 }
 
+PressureSound TaitWater::isentropic_state(double rho) const {
+  const double pressure = rho > rho_floor_ ? isentropic_.pressure(std::min(rho, rho_wet_)) : p_lowest_;
+  return {pressure, guarded_sound_speed(isentropic_.sound_squared(pressure))};
+}
+
 double TaitWater::liquid_density(double pressure) const {
   return p_.rho0 * std::pow(1.0 + (pressure - p_.A) / p_.B, 1.0 / p_.N);
 }
@@ -72,6 +93,7 @@ double TaitWater::density_at(double pressure, double) const {
     text << "Tait water has no density at " << pressure << " Pa: its pressures begin at " << lowest << " Pa";
     throw std::domain_error(text.str());
   }
+  if (p_.cavitation == Cavitation::isentropic && pressure < p_.mixture.p_sat) return isentropic_.density(pressure);
   if (p_.cavitation != Cavitation::schmidt || pressure >= p_.mixture.p_sat) {
     if (pressure == p_lowest_ && p_.cavitation == Cavitation::cutoff) return rho_limit_;
     return liquid_density(pressure);
@@ -103,6 +125,9 @@ double TaitWater::mixture_energy(double rho) const {
 
 double TaitWater::barotropic_energy(double rho) const {
   if (rho >= rho_limit_) return liquid_energy(rho);
+  if (p_.cavitation == Cavitation::isentropic && rho > rho_floor_)
+    return rho < rho_wet_ ? energy_wet_ + isentropic_.energy(isentropic_.pressure(rho))
+                          : energy_limit_ + p_.mixture.p_sat * (1.0 / rho_limit_ - 1.0 / rho);
   if (rho > rho_floor_) return mixture_energy(rho);
   return energy_floor_ + p_lowest_ * (1.0 / rho_floor_ - 1.0 / rho);
 }

@@ -1,9 +1,10 @@
-// Water after Tait with its cavitation models: plain cut-off and the modified Schmidt mixture.
+// Water after Tait with its cavitation models: plain cut-off, the modified Schmidt mixture, the isentropic mixture.
 // Chen, Peng, Lien, Zhao 2019, doi 10.1007/s40571-019-00230-7, eqs 28-33. SI units.
 #pragma once
 
 #include <cmath>
 
+#include "materials/isentropic_mixture.hpp"
 #include "materials/pressure_sound.hpp"
 
 namespace undex::materials {
@@ -37,6 +38,10 @@ double schmidt_pressure_scale(const SchmidtMixture& mixture, double rho_liquid);
 /// because time step, viscosity and impedance need a positive one. With the cut-off, the sound speed below it
 /// is that of the liquid at the cut-off density: the bubbly medium is not modelled, and the time step does
 /// not change when particles cross the cut-off back and forth.
+///
+/// The isentropic mixture begins with a void fraction, so at a density a little below the liquid's: between the two the
+/// pressure stays at p_sat while the first vapour appears. p_sat and density_ratio are those of SchmidtMixture; its sound
+/// speeds follow and are not asked for. p > 0 at every density, p_floor acts in near vacuum only.
 class TaitWater {
  public:
   struct Parameters {
@@ -47,11 +52,13 @@ class TaitWater {
     Cavitation cavitation = Cavitation::schmidt;
     SchmidtMixture mixture;
     double p_floor = 1e-5;  ///< [Pa], eq. 32's p_eps
+    double vapour_gamma = 1.33;  ///< [-], of the isentropic mixture, as the next
+    double initial_void = 1e-5;  ///< void fraction where the liquid begins to cavitate
   };
   static constexpr bool uses_energy = false;
 
   /// Throws std::invalid_argument where a parameter leaves its range (rho0, B > 0, N > 1, 0 < density_ratio <
-  /// 1, p_floor < p_sat, both attainable by the liquid law).
+  /// 1, p_floor < p_sat, both attainable by the liquid law; vapour_gamma > 1, 0 < initial_void < 1).
   explicit TaitWater(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
 
@@ -87,17 +94,21 @@ class TaitWater {
     return K_vapour_ * K_liquid_ / (rho * weighted_modulus(alpha));
   }
   double mixture_energy(double rho) const;
+  PressureSound isentropic_state(double rho) const;
 
   Parameters p_;
   double rho_limit_ = 0.0, rho_floor_ = 0.0;    // ends of the liquid and of the mixture
   double p_lowest_ = 0.0, liquid_sound_ = 0.0;  // pressure on the floor; liquid's sound speed at its limit
   double rho_vapour_ = 0.0, K_vapour_ = 0.0, K_liquid_ = 0.0, p_gl_ = 0.0;
   double energy_limit_ = 0.0, energy_floor_ = 0.0;  // compression energies at the two ends
+  IsentropicMixture isentropic_;
+  double rho_wet_ = 0.0, energy_wet_ = 0.0;  // where the isentropic mixture begins
 };
 
 inline PressureSound TaitWater::evaluate(double rho, double) const {
   if (rho < rho_limit_) {
     if (p_.cavitation == Cavitation::cutoff) return {p_lowest_, liquid_sound_};
+    if (p_.cavitation == Cavitation::isentropic) return isentropic_state(rho);
     const double alpha = void_fraction(rho);
     const double rho_mixture = std::max(rho, rho_vapour_);  // thinner than pure vapour: its state is kept
     const double pressure = rho > rho_floor_ ? mixture_pressure(rho, alpha) : p_lowest_;
@@ -109,6 +120,8 @@ inline PressureSound TaitWater::evaluate(double rho, double) const {
 
 inline double TaitWater::void_fraction(double rho, double) const {
   if (rho >= rho_limit_) return 0.0;
+  if (p_.cavitation == Cavitation::isentropic && rho < rho_wet_)
+    return isentropic_.void_fraction(rho > rho_floor_ ? isentropic_.pressure(rho) : p_lowest_);
   return std::min((rho_limit_ - rho) / (rho_limit_ - rho_vapour_), 1.0);
 }
 

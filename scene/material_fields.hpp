@@ -13,6 +13,7 @@ void each_field(materials::TaitWater::Parameters& p, F&& field) {
   field("cavitation", p.cavitation);
   field("density_ratio", p.mixture.density_ratio), field("vapour_sound", p.mixture.vapour_sound);
   field("liquid_sound", p.mixture.liquid_sound), field("p_sat", p.mixture.p_sat), field("p_floor", p.p_floor);
+  field("vapour_gamma", p.vapour_gamma), field("initial_void", p.initial_void);
 }
 template <class F>
 void each_field(materials::BarotropicGas::Parameters& p, F&& field) {
@@ -103,6 +104,7 @@ inline const char* cavitation_name(materials::Cavitation cavitation) {
   switch (cavitation) {
     case materials::Cavitation::none: return "none";
     case materials::Cavitation::cutoff: return "cutoff";
+    case materials::Cavitation::isentropic: return "isentropic";
     case materials::Cavitation::schmidt: break;
   }
   return "schmidt";

@@ -43,7 +43,8 @@ void read_fields(const TableReader& table, Parameters& parameters, bool all_need
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Cavitation>) {
       table.read_choice<Cavitation>(key, value, {{"none", Cavitation::none},
                                                  {"cutoff", Cavitation::cutoff},
-                                                 {"schmidt", Cavitation::schmidt}});
+                                                 {"schmidt", Cavitation::schmidt},
+                                                 {"isentropic", Cavitation::isentropic}});
     } else {
       if (all_needed && !has_default(parameters, key) &&
           !table.need(key, "a law without 'base' needs all its parameters")) return;

@@ -62,7 +62,7 @@ std::vector<Section> make_schema() {
        {word("base"), word("name"), word("source"), word("law"), positive("rho0", "kg/m^3"), positive("B", "Pa"),
         above("N", 1, 100), any("A", "Pa"), word("cavitation"), above("density_ratio", 0, 1),
         positive("vapour_sound", "m/s"), positive("liquid_sound", "m/s"), positive("p_sat", "Pa"),
-        any("p_floor", "Pa")}},
+        any("p_floor", "Pa"), above("vapour_gamma", 1, 100), above("initial_void", 0, 1)}},
       {"material.barotropic_gas",
        {word("base"), word("name"), word("source"), word("law"), positive("rho0", "kg/m^3"), positive("p0", "Pa"),
         above("gamma", 1, 100)}},

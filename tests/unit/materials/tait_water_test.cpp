@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "law_checks.hpp"
+#include "materials/library.hpp"
 
 namespace undex::materials {
 namespace {
@@ -148,7 +149,7 @@ TEST(TaitWater, WithoutCavitationTensionGoesOn) {
 }
 
 TEST(TaitWater, SoundSpeedIsTheSlope) {
-  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt})
+  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt, Cavitation::isentropic})
     for (const double rho : {1000.5, 1100.0, 1500.0}) {
       const double c = water(cavitation).evaluate(rho, 0.0).sound_speed;
       EXPECT_NEAR(test::isentropic_slope(water(cavitation), rho, 0.0), c * c, 1e-6 * c * c);
@@ -163,7 +164,7 @@ TEST(TaitWater, SoundSpeedIsTheSlope) {
 }
 
 TEST(TaitWater, PressureNeverFallsAndSoundIsPositive) {
-  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt}) {
+  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt, Cavitation::isentropic}) {
     const TaitWater law = water(cavitation);
     double last = -std::numeric_limits<double>::infinity();
     for (double rho = 1e-4; rho < 3000.0; rho *= 1.0003) {
@@ -177,7 +178,7 @@ TEST(TaitWater, PressureNeverFallsAndSoundIsPositive) {
 }
 
 TEST(TaitWater, CompressionEnergyIsTheIntegralOfPressure) {
-  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt}) {
+  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt, Cavitation::isentropic}) {
     const TaitWater law = water(cavitation);
     EXPECT_NEAR(law.barotropic_energy(1400.0), test::compression_work(law, 1000.0, 1400.0),
                 1e-9 * law.barotropic_energy(1400.0));
@@ -209,7 +210,7 @@ TEST(TaitWater, FloorEnergyWithALargeFloorPressure) {
 }
 
 TEST(TaitWater, DensityInvertsPressure) {
-  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt}) {
+  for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt, Cavitation::isentropic}) {
     const TaitWater law = water(cavitation);
     for (const double rho : {999.97, 1000.0, 1001.0, 1100.0, 1800.0})
       EXPECT_NEAR(law.density_at(law.evaluate(rho, 0.0).pressure), rho, 1e-11 * rho);
@@ -247,6 +248,91 @@ TEST(TaitWater, RefusesImpossibleParameters) {
   EXPECT_THROW(with([](auto& p) { p.p_floor = -4e8; }), std::invalid_argument);
   EXPECT_THROW(with([](auto& p) { p.mixture.density_ratio = 1.0; }), std::invalid_argument);
   EXPECT_THROW(with([](auto& p) { p.mixture.vapour_sound = 0.0; }), std::invalid_argument);
+}
+
+// ---- Isentropic mixture --------------------------------------------------------------------------------------------
+
+TaitWater isentropic() { return std::get<TaitWater>(find_fluid("water-tait-isentropic")->law); }
+
+TEST(IsentropicMixture, IsTheMixtureOfItsPhases) {
+  // By hand, at a hundredth of the saturation pressure: k = 1e-5/(1 - 1e-5), steam thinner by 100^(1/1.33) = 31.893.
+  const double k = 1e-5 / (1 - 1e-5), liquid = isentropic().liquid_limit(), steam = 2.31e-5 * liquid;
+  const double stretched = k * std::pow(100.0, 1 / 1.33), liquid_now = std::pow((31.65 + 3.309e8) / (3165 + 3.309e8), -1 / 7.15);
+  const double rho = (liquid + k * steam) / (liquid_now + stretched);
+  EXPECT_NEAR(isentropic().density_at(31.65), rho, 1e-12 * rho);
+  EXPECT_NEAR(isentropic().evaluate(rho, 0.0).pressure, 31.65, 1e-7);
+  EXPECT_NEAR(isentropic().void_fraction(rho), stretched / (liquid_now + stretched), 1e-12);
+  // Each phase on its own isentrope makes up the density: rho = alpha rho_g + (1 - alpha) rho_l.
+  const double alpha = isentropic().void_fraction(rho);
+  EXPECT_NEAR(alpha * steam * std::pow(0.01, 1 / 1.33) + (1 - alpha) * liquid / liquid_now, rho, 1e-12 * rho);
+}
+
+TEST(IsentropicMixture, ContinuousAtSaturation) {
+  const TaitWater law = isentropic();
+  const double limit = law.liquid_limit(), wet = law.density_at(3165.0 * (1 - 1e-12));
+  EXPECT_NEAR((limit - wet) / limit, 1e-5, 1e-9) << "the first vapour appears at p_sat";
+  for (const double rho : {limit * (1 + 1e-12), limit * (1 - 1e-12), 0.5 * (limit + wet), wet * (1 + 1e-12), wet * (1 - 1e-12)})
+    EXPECT_NEAR(law.evaluate(rho, 0.0).pressure, 3165.0, 1e-2) << rho;
+  // The liquid's energy is a difference of terms of 5e4 J/kg.
+  for (const double rho : {limit, wet})
+    EXPECT_NEAR(law.barotropic_energy(rho * (1 + 1e-12)), law.barotropic_energy(rho * (1 - 1e-12)), 1e-10);
+  EXPECT_EQ(law.void_fraction(limit), 0.0);
+  EXPECT_NEAR(law.void_fraction(wet * (1 - 1e-13)), 1e-5, 1e-9);
+  EXPECT_NEAR(law.void_fraction(wet * (1 + 1e-13)), 1e-5, 1e-9);
+}
+
+TEST(IsentropicMixture, SoundIsTheSlopeAndWoods) {
+  const TaitWater law = isentropic();
+  for (const double p : {3164.0, 3000.0, 1000.0, 10.0, 0.1}) {
+    const double rho = law.density_at(p), c = law.evaluate(rho, 0.0).sound_speed, step = 1e-4 * p;
+    const double slope = 2 * step / (law.density_at(p + step) - law.density_at(p - step));
+    EXPECT_NEAR(slope, c * c, 1e-6 * c * c) << p;
+    const double alpha = law.void_fraction(rho);
+    const double wood = alpha / (1.33 * p) + (1 - alpha) / (7.15 * (p + 3.309e8));
+    EXPECT_NEAR(1 / (rho * c * c), wood, 1e-9 * wood) << p;
+  }
+  // Half vapour: a few metres per second, far below either phase.
+  double low = 1e-3, high = 3000;
+  for (int k = 0; k < 60; ++k) (law.void_fraction(law.density_at(0.5 * (low + high))) > 0.5 ? low : high) = 0.5 * (low + high);
+  EXPECT_LT(law.evaluate(law.density_at(low), 0.0).sound_speed, 1.0);
+}
+
+TEST(IsentropicMixture, PressureRisesAllThrough) {
+  const TaitWater law = isentropic();
+  double last = 0;
+  for (double rho = law.floor_density() * 1.0001; rho < law.liquid_limit() * (1 - 1.1e-5); rho *= 1.0003) {
+    const double p = law.evaluate(rho, 0.0).pressure;
+    EXPECT_GT(p, last) << rho;
+    EXPECT_NEAR(law.density_at(p), rho, 1e-11 * rho);
+    last = p;
+  }
+}
+
+TEST(IsentropicMixture, EnergyIsTheWorkOfPressure) {
+  const TaitWater law = isentropic();
+  const double start = law.density_at(3165.0 * (1 - 1e-12));
+  double from = start;
+  for (const double p : {1000.0, 10.0, 0.1}) {
+    const double to = law.density_at(p);
+    const double work = law.barotropic_energy(from) - law.barotropic_energy(to);
+    EXPECT_NEAR(work, test::compression_work(law, to, from, 200000), 1e-5 * work) << p;
+    from = to;
+  }
+  EXPECT_LT(law.barotropic_energy(from), law.barotropic_energy(start));
+}
+
+TEST(IsentropicMixture, RefusesImpossibleParameters) {
+  const auto with = [](auto change) {
+    TaitWater::Parameters p;
+    p.cavitation = Cavitation::isentropic;
+    change(p);
+    return TaitWater(p);
+  };
+  EXPECT_NO_THROW(with([](auto&) {}));
+  EXPECT_THROW(with([](auto& p) { p.vapour_gamma = 1.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](auto& p) { p.initial_void = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](auto& p) { p.initial_void = 1.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](auto& p) { p.p_floor = 0.0; }), std::invalid_argument);
 }
 
 }  // namespace
