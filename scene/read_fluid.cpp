@@ -63,17 +63,27 @@ void read_scheme(const TableReader& top, Draft& draft) {
   const Node* node = top.table("scheme");
   if (!node) return;
   const TableReader table(*node, "scheme", "scheme", top.dimension(), draft.report);
-  table.read_choice<sph::SchemeName>("name", numerics.scheme, {{"monaghan", sph::SchemeName::monaghan},
-                                                               {"riemann", sph::SchemeName::riemann}});
-  table.read_choice<sph::KernelName>("kernel", numerics.kernel, {{"gaussian", sph::KernelName::gaussian},
-                                                                 {"wendland_c2", sph::KernelName::wendland_c2}});
+  table.read_choice<sph::SchemeName>("name", numerics.scheme, {std::begin(sph::scheme_names), std::end(sph::scheme_names)});
+  if (numerics.scheme == sph::SchemeName::paper) numerics.kernel = sph::KernelName::gaussian;
+  Choices<sph::KernelName> kernels;
+  for (const sph::KernelName name : sph::all_kernels)
+    kernels.push_back({sph::with_kernel(name, [](auto kernel) { return kernel.name; }), name});
+  table.read_choice("kernel", numerics.kernel, kernels);
   table.read_choice<sph::Precision>("precision", numerics.precision, {{"full", sph::Precision::full},
                                                                       {"mixed", sph::Precision::mixed}});
   // each kernel's own usual smoothing length
-  numerics.eta = numerics.kernel == sph::KernelName::gaussian ? 1.2 : sph::Numerics{}.eta;
+  numerics.eta = sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
+  if (numerics.scheme == sph::SchemeName::monaghan_switch) numerics.beta = 2.0;
   table.read("eta", numerics.eta);
   table.read("alpha", numerics.alpha);
   table.read("beta", numerics.beta);
+  table.read("alpha_min", numerics.alpha_min);
+  if (numerics.scheme == sph::SchemeName::monaghan_switch && !(numerics.alpha > 0.0 && numerics.alpha >= numerics.alpha_min))
+    table.complain(table.has("alpha_min") ? "alpha_min" : "alpha",
+                   "scheme.alpha = " + shortest(numerics.alpha) + " is the upper bound of a coefficient whose lower one is "
+                   "scheme.alpha_min = " + shortest(numerics.alpha_min) + " with scheme.name = \"monaghan_switch\": raise "
+                   "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
+  table.read("shifting", numerics.shifting);
   table.read("courant", numerics.courant);
   table.read("fixed_step", numerics.fixed_step);
   table.read("signal", numerics.signal);

@@ -347,12 +347,15 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.axes("planes", fluid.symmetry.axis);
   writer.table("[scheme]", "scheme");
   const sph::Numerics& numerics = fluid.numerics;
-  writer.put("name", numerics.scheme == sph::SchemeName::monaghan ? "monaghan" : "riemann");
-  writer.put("kernel", numerics.kernel == sph::KernelName::gaussian ? "gaussian" : "wendland_c2");
+  for (const auto& [name, scheme] : sph::scheme_names)
+    if (scheme == numerics.scheme) writer.put("name", name);
+  writer.put("kernel", sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.name; }));
   writer.put("precision", numerics.precision == sph::Precision::mixed ? "mixed" : "full");
   writer.put("eta", numerics.eta);
   writer.put("alpha", numerics.alpha);
   writer.put("beta", numerics.beta);
+  writer.put("alpha_min", numerics.alpha_min);
+  writer.put("shifting", numerics.shifting);
   writer.put("courant", numerics.courant);
   writer.put("fixed_step", numerics.fixed_step);
   writer.put("signal", numerics.signal);

@@ -12,6 +12,33 @@
 #include "sph_fluid/pair_data.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
+
+/// Any of the kernels, chosen by the input: one loop serves them all, for a branch that is the same for every pair
+/// (docs/performance.md has its price). The others are known where the loop is compiled.
+struct AnyKernel {
+  KernelName which;
+  double support, scale;
+  static constexpr bool needs_root = true;
+
+  double norm(int) const { return scale; }
+  template <class T, class V>
+  UNDEX_INLINE V gradient_of_root(V q) const {
+    const V inside = minimum(q, broadcast(T(support)));
+    return with_kernel(which, [&](auto kernel) UNDEX_LAMBDA_INLINE {
+      if constexpr (decltype(kernel)::needs_root)
+        return kernel.template gradient_of_root<T>(inside);
+      else
+        return kernel.template gradient<T>(inside * inside);
+    });
+  }
+};
+
+inline AnyKernel kernel_of(const PairInput& in, const AnyKernel*) { return {in.kernel.name, in.kernel.support, in.kernel.norm}; }
+template <class Kernel>
+UNDEX_INLINE Kernel kernel_of(const PairInput&, const Kernel*) {
+  return {};
+}
+
 namespace {
 
 double power(double a, int n) {
@@ -24,21 +51,23 @@ double power(double a, int n) {
 template <class Kernel, class T>
 struct ConstantH {
   using V = Vec<T>;
+  Kernel kernel;
   T h_, inverse_h, scale, reach2;
 
-  ConstantH(double h, int dimension)
-      : h_(T(h)),
+  ConstantH(const Kernel& k, double h, int dimension)
+      : kernel(k),
+        h_(T(h)),
         inverse_h(T(1.0 / h)),
-        scale(T(Kernel::norm(dimension) / power(h, dimension + 2))),
-        reach2(T(Kernel::support * Kernel::support * h * h)) {}
+        scale(T(k.norm(dimension) / power(h, dimension + 2))),
+        reach2(T(k.support * k.support * h * h)) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
     pair.h = broadcast(h_);
     pair.near = pair.r2 < reach2;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.near, scale * Kernel::template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
+      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
     } else {
-      pair.F = keep(pair.near, scale * Kernel::template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
+      pair.F = keep(pair.near, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
     }
   }
 };
@@ -47,12 +76,13 @@ struct ConstantH {
 template <class Kernel, class T>
 struct PairH {
   using V = Vec<T>;
+  Kernel kernel;
   T h_i, norm;
   int dimension;
 
-  PairH(double h, int d) : h_i(T(h)), norm(T(Kernel::norm(d))), dimension(d) {}
+  PairH(const Kernel& k, double h, int d) : kernel(k), h_i(T(h)), norm(T(k.norm(d))), dimension(d) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T* h_j) const {
-    constexpr T support = T(Kernel::support);
+    const T support = T(kernel.support);
     const V h = T(0.5) * (h_i + load(h_j));
     pair.h = h;
     pair.near = pair.r2 < support * support * (h * h);
@@ -62,10 +92,10 @@ struct PairH {
     if (dimension > 2) scale *= inverse_h;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.near, scale * Kernel::template gradient_of_root<T>(minimum(
+      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(minimum(
                                            s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
     } else {
-      pair.F = keep(pair.near, scale * Kernel::template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h),
+      pair.F = keep(pair.near, scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h),
                                                                             broadcast(support * support))));
     }
   }
@@ -73,7 +103,7 @@ struct PairH {
 
 /// What the pairs of one loop have in common.
 struct PairKind {
-  bool constant_h, gas;
+  bool constant_h, gas, foreign;
 };
 
 /// One pass over one cluster: its candidates, the pairs with them, and the sums.
@@ -128,8 +158,9 @@ class ClusterWork {
     PairKind kind{};
     kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
     kind.gas = own_.gas || other.gas;
+    kind.foreign = g != cluster_.group;
     // A pair's h is the mean of two.
-    const double reach = Kernel::support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
+    const double reach = kernel_.support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
     // Where both sides receive their part, the pairs of two clusters belong to the first, and a cluster meets what comes after
     // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
     // an image, i is an image too, and what the image receives is mirrored back.
@@ -162,8 +193,8 @@ class ClusterWork {
   }
 
   void with_walls() {
-    const PairKind kind{.constant_h = true, .gas = own_.gas};
-    const double reach = Kernel::support * h_cluster_;
+    const PairKind kind{.constant_h = true, .gas = own_.gas, .foreign = false};
+    const double reach = kernel_.support * h_cluster_;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       list_.size = 0;
       scan_grid(in_.wall_grid, in_.wall_x, in_.wall_y, in_.wall_z, box, reach, 0, list_);
@@ -200,9 +231,9 @@ class ClusterWork {
     if (list_.size == 0) return;
     for (int l = 0; l < cluster_.count; ++l) {
       if (kind.constant_h)
-        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(h_of(l), in_.dimension));
+        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_.dimension));
       else
-        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(h_of(l), in_.dimension));
+        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_.dimension));
     }
   }
 
@@ -221,6 +252,7 @@ class ClusterWork {
     V met{};
     Pair<V> pair;
     pair.gas = kind.gas;
+    pair.foreign = kind.foreign;
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());
     for (; block != end; block += List::stride) {
@@ -281,6 +313,7 @@ class ClusterWork {
   }
 
   const PairInput& in_;
+  const Kernel kernel_ = kernel_of(in_, (const Kernel*)nullptr);
   const Pass& pass_;
   const Cluster& cluster_;
   const GroupView& own_;

@@ -1,6 +1,7 @@
 // Smoothing kernels W(r, h) in 1, 2 and 3 dimensions, and F = (dW/dr)/r for pair loops.
 // Each kernel is one struct: its support in units of h, its shape w(q) and f(q^2) = (dw/dq)/q, q = r/h, and its
 // normalisation by dimension; T is double or float, V is T or a SIMD vector of it. W = norm/h^d w(q), F = norm/h^(d+2) f.
+// `usual_eta` is the h/dx that a scene gets by default (docs/equations.md, section 2).
 #pragma once
 
 #include <cmath>
@@ -8,10 +9,12 @@
 
 namespace undex::sph {
 
+enum class KernelName { gaussian, wendland_c2, wendland_c4, wendland_c6, cubic_spline, quintic_spline };
+
 /// Gaussian cut at 3h (Chen et al. 2019, eq. 3). The cut value e^-9 is subtracted and the rest renormalised, so that
 /// W is continuous, its integral is 1 and the first moment of its gradient is exactly -d.
 struct Gaussian {
-  static constexpr double support = 3.0;
+  static constexpr double support = 3.0, usual_eta = 1.2;
   static constexpr const char* name = "gaussian";
 
   static double norm(int dimension) {
@@ -51,7 +54,7 @@ struct Gaussian {
 /// Wendland's C2 function of compact support 2h (Wendland 1995), (1 - q/2)^4 (2q + 1) in every dimension (in one
 /// dimension a lower power would do, but one form serves all loops).
 struct WendlandC2 {
-  static constexpr double support = 2.0;
+  static constexpr double support = 2.0, usual_eta = 1.5;
   static constexpr const char* name = "wendland_c2";
 
   static double norm(int dimension) {
@@ -70,6 +73,113 @@ struct WendlandC2 {
   }
   static constexpr bool needs_root = true;
 };
+
+/// Wendland's C4 function of compact support 2h (Wendland 1995; Dehnen, Aly 2012, Mon. Not. R. Astron. Soc. 425, table 1),
+/// (1 - q/2)^6 (35/12 q^2 + 3q + 1) in every dimension.
+struct WendlandC4 {
+  static constexpr double support = 2.0, usual_eta = 1.75;
+  static constexpr const char* name = "wendland_c4";
+
+  static double norm(int dimension) {
+    const double pi = std::numbers::pi;
+    return dimension == 1 ? 27.0 / 32.0 : dimension == 2 ? 9.0 / (4.0 * pi) : 495.0 / (256.0 * pi);
+  }
+  static double shape(double q) {
+    const double s = 1.0 - 0.5 * q, s2 = s * s;
+    return q < support ? s2 * s2 * s2 * ((35.0 / 12.0 * q + 3.0) * q + 1.0) : 0.0;
+  }
+  /// -14/3 (1 - q/2)^5 (1 + 5/2 q) for q in [0, 2].
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V gradient_of_root(V q) {
+    const V s = T(1) - T(0.5) * q, s2 = s * s;
+    return s2 * s2 * s * (T(-14.0 / 3.0) - T(35.0 / 3.0) * q);
+  }
+  static constexpr bool needs_root = true;
+};
+
+/// Wendland's C6 function of compact support 2h, (1 - q/2)^8 (4q^3 + 25/4 q^2 + 4q + 1) in every dimension.
+struct WendlandC6 {
+  static constexpr double support = 2.0, usual_eta = 2.0;
+  static constexpr const char* name = "wendland_c6";
+
+  static double norm(int dimension) {
+    const double pi = std::numbers::pi;
+    return dimension == 1 ? 15.0 / 16.0 : dimension == 2 ? 39.0 / (14.0 * pi) : 1365.0 / (512.0 * pi);
+  }
+  static double shape(double q) {
+    const double s = 1.0 - 0.5 * q, s2 = s * s, s4 = s2 * s2;
+    return q < support ? s4 * s4 * (((4.0 * q + 6.25) * q + 4.0) * q + 1.0) : 0.0;
+  }
+  /// -11/2 (1 - q/2)^7 (1 + 7/2 q + 4 q^2) for q in [0, 2].
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V gradient_of_root(V q) {
+    const V s = T(1) - T(0.5) * q, s2 = s * s;
+    return s2 * s2 * s2 * s * (T(-5.5) - q * (T(19.25) + T(22) * q));
+  }
+  static constexpr bool needs_root = true;
+};
+
+/// Cubic B-spline M4 of support 2h (Monaghan, Lattanzio 1985, Astron. Astrophys. 149): (2 - q)^3/4 - (1 - q)^3, each term
+/// while its base is positive.
+struct CubicSpline {
+  static constexpr double support = 2.0, usual_eta = 1.325;
+  static constexpr const char* name = "cubic_spline";
+
+  static double norm(int dimension) {
+    const double pi = std::numbers::pi;
+    return dimension == 1 ? 2.0 / 3.0 : dimension == 2 ? 10.0 / (7.0 * pi) : 1.0 / pi;
+  }
+  static double shape(double q) {
+    const double a = q < 2.0 ? 2.0 - q : 0.0, b = q < 1.0 ? 1.0 - q : 0.0;
+    return 0.25 * a * a * a - b * b * b;
+  }
+  /// Both pieces, and a choice between them; the inner one has no 1/q.
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V gradient_of_root(V q) {
+    const V a = T(2) - q;
+    return q < T(1) ? T(2.25) * q - T(3) : T(-0.75) * (a * a) / q;
+  }
+  static constexpr bool needs_root = true;
+};
+
+/// Quintic B-spline M6 of support 3h (Morris, Fox, Zhu 1997, J. Comput. Phys. 136): (3 - q)^5 - 6 (2 - q)^5 + 15 (1 - q)^5,
+/// each term while its base is positive.
+struct QuinticSpline {
+  static constexpr double support = 3.0, usual_eta = 1.1;
+  static constexpr const char* name = "quintic_spline";
+
+  static double norm(int dimension) {
+    const double pi = std::numbers::pi;
+    return dimension == 1 ? 1.0 / 120.0 : dimension == 2 ? 7.0 / (478.0 * pi) : 1.0 / (120.0 * pi);
+  }
+  static double shape(double q) {
+    const double a = q < 3.0 ? 3.0 - q : 0.0, b = q < 2.0 ? 2.0 - q : 0.0, c = q < 1.0 ? 1.0 - q : 0.0;
+    return a * a * a * a * a - 6.0 * b * b * b * b * b + 15.0 * c * c * c * c * c;
+  }
+  /// As the cubic one; the inner piece is multiplied out.
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V gradient_of_root(V q) {
+    const V a = T(3) - q, b = q < T(2) ? T(2) - q : V{}, a2 = a * a, b2 = b * b;
+    return q < T(1) ? (T(120) - T(50) * q) * (q * q) - T(120) : (T(30) * (b2 * b2) - T(5) * (a2 * a2)) / q;
+  }
+  static constexpr bool needs_root = true;
+};
+
+/// Calls visit(kernel) with the kernel of that name; every list of kernels outside this file is made by it.
+template <class Visit>
+inline __attribute__((always_inline)) auto with_kernel(KernelName name, Visit visit) {
+  switch (name) {
+    case KernelName::gaussian: return visit(Gaussian{});
+    case KernelName::wendland_c4: return visit(WendlandC4{});
+    case KernelName::wendland_c6: return visit(WendlandC6{});
+    case KernelName::cubic_spline: return visit(CubicSpline{});
+    case KernelName::quintic_spline: return visit(QuinticSpline{});
+    case KernelName::wendland_c2: break;
+  }
+  return visit(WendlandC2{});
+}
+inline constexpr KernelName all_kernels[] = {KernelName::gaussian,    KernelName::wendland_c2,  KernelName::wendland_c4,
+                                             KernelName::wendland_c6, KernelName::cubic_spline, KernelName::quintic_spline};
 
 /// W(r, h) [1/m^d].
 template <class Kernel>

@@ -257,7 +257,7 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
 }  // namespace
 
 double kernel_support(KernelName kernel) {
-  return kernel == KernelName::gaussian ? Gaussian::support : WendlandC2::support;
+  return with_kernel(kernel, [](auto k) { return k.support; });
 }
 
 double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }

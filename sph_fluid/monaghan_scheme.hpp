@@ -36,10 +36,11 @@ struct Monaghan {
     return product * mu * (2 * beta * mu - alpha * sound) * (inverse * reach);
   }
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+  /// A pair with its viscosity multiplied by `share`: the force, and what each side takes up of its work.
+  UNDEX_INLINE void exchange(const FluidState<V>& i, const FluidState<V>& j, const Pair<V>& pair, V share, Sums& si, Sums& sj) const {
     const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
     V closing;
-    const V viscous = viscosity(vr, pair, i.c + j.c, i.rho + j.rho, i.rho * j.rho, closing);
+    const V viscous = share * viscosity(vr, pair, i.c + j.c, i.rho + j.rho, i.rho * j.rho, closing);
     add_force(pair.F * (i.p + j.p + viscous), pair, i.volume, j.volume, si, sj);
     const V D = pair.F * vr, q = T(0.5) * viscous * D;
     si.compression += j.volume * D;
@@ -50,15 +51,24 @@ struct Monaghan {
     sj.closing = maximum(sj.closing, closing);
   }
 
-  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+  /// The same against a wall.
+  UNDEX_INLINE void wall_exchange(const FluidState<V>& i, const Wall& w, const Pair<V>& pair, V share, Sums& si,
+                                  WallSums<V>& sw) const {
     const Mirrored<V> m = mirrored(i, w, pair);
     V closing;
-    const V viscous = viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
+    const V viscous = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
     add_wall_force(pair.F * (2 * i.p + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * m.approach * w.volume;
     si.compression += D;
     si.heat += T(0.5) * viscous * D;
     si.closing = maximum(si.closing, closing);
+  }
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    exchange(i, j, pair, broadcast(T(1)), si, sj);
+  }
+  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+    wall_exchange(i, w, pair, broadcast(T(1)), si, sw);
   }
 };
 

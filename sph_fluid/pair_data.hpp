@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sph_fluid/kernels.hpp"
+
 namespace undex::sph {
 
 /// Particles of a cluster, the unit of work of a pair loop. Every one of them is paired with all candidates of the cluster.
@@ -30,6 +32,22 @@ struct GradientRow {
 
 /// Lower bound of GradientRow::filling. Half is what a plane free surface has.
 inline constexpr float least_filling = 0.5f;
+
+/// The same with the correction of kernel gradients B (xx, yy, zz, xy, yz, zx) [-]; see corrected_scheme.hpp.
+struct CorrectedRow {
+  GradientRow gradient;
+  float correction[6];
+};
+
+/// A particle's own coefficient of viscosity; see switch_scheme.hpp.
+struct ViscosityRow {
+  double alpha;
+};
+
+/// What shifting.hpp learns of a particle's surroundings: gradient of the concentration [1/m], with what holds it back.
+struct ConcentrationRow {
+  float x, y, z;
+};
 
 /// What pairs of solid particles read beside FluidRow [Pa]: sigma B, row by row, B being the correction of kernel gradients
 /// (solid_schemes.hpp); sigma itself: xx, yy, zz, yz, zx, xy; the rate of strain, in the same order [1/s]; and
@@ -110,12 +128,23 @@ struct Scratch {
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
 void release(Scratch&);
 
+/// A kernel as the loops need it; kernel_choice() makes it (lattice.hpp).
+struct KernelChoice {
+  KernelName name;
+  double support;  ///< in smoothing lengths
+  double norm;
+};
+
 /// Everything that the loop over pairs reads.
 struct PairInput {
   int dimension;
   const double *x, *y, *z;
   const FluidRow* fluid;
-  GradientRow* gradient;               ///< null where the scheme has no use for them
+  KernelChoice kernel;                 ///< read by the loop that serves any kernel
+  GradientRow* gradient;               ///< null where the scheme has no use for them, as the next two
+  CorrectedRow* corrected;
+  const ViscosityRow* viscosity;
+  ConcentrationRow* concentration;     ///< of the shifting's pass
   const SolidRow* solid;               ///< of the solids' passes, as the next
   DeformationRow* deformation;
   double artificial_stress, spacing;   ///< of the solids' forces
@@ -127,7 +156,7 @@ struct PairInput {
   CellGrid wall_grid;
   std::uint32_t wall_count;
   bool mirror[3];                      ///< symmetry planes through the origin
-  double alpha, beta;                  ///< Monaghan's viscosity
+  double alpha, beta;                  ///< Monaghan's viscosity; with a switch, alpha's upper bound and the beta there
   bool partly;                         ///< only clusters within `margin` of the box are worked on
   double disturbed_low[3], disturbed_high[3], margin;  ///< [m]
   const Cluster* clusters;             ///< sorted by block

@@ -6,17 +6,26 @@
 
 namespace undex::sph {
 
+/// What a scheme reads of a particle beside FluidRow: which of PairInput's arrays must be there.
+enum class SecondRow { none, gradient, corrected, viscosity };
+
 struct PairLoops {
   const char* cpu_level;
-  bool needs_gradients;  ///< must PairInput::gradient be given?
+  SecondRow second;
   double support;        ///< of the kernel, in smoothing lengths
   /// Adds every pair to the sums of `out`, which the caller has set to zero.
   void (*rates)(const PairInput&, const PairOutput&);
+  /// Fills PairInput::concentration.
+  void (*concentration)(const PairInput&, const PairOutput&);
+
+  /// Does a pass for gradients come before the fluxes?
+  bool reconstructs() const { return second == SecondRow::gradient || second == SecondRow::corrected; }
 };
 
 /// The loops of the best instruction set that this machine has; the environment variable UNDEX_CPU_LEVEL (x86-64-v2, -v3,
 /// -v4) asks for a lower one.
 PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision);
+KernelChoice kernel_choice(KernelName kernel, int dimension);
 
 /// The passes of solids (solid_schemes.hpp), with Wendland's kernel.
 struct SolidLoops {

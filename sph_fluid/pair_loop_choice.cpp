@@ -10,29 +10,70 @@
 
 namespace undex::sph {
 
-#define UNDEX_DECLARE_LEVEL(level)                                                                             \
-  namespace level {                                                                                            \
-  template <class Kernel, class T>                                                                             \
-  void monaghan_rates(const PairInput&, const PairOutput&);                                                    \
-  template <class Kernel, class T>                                                                             \
-  void riemann_rates(const PairInput&, const PairOutput&);                                                     \
-  void solid_deformation(const PairInput&, const PairOutput&);                                                 \
-  void solid_forces(const PairInput&, const PairOutput&);                                                      \
-  void contact_overlap(const PairInput&, const PairOutput&);                                                   \
-  void contact_forces(const PairInput&, const PairOutput&);                                                    \
-  template <class Kernel, class T>                                                                             \
-  PairLoops loops(SchemeName scheme, const char* name) {                                                       \
-    if (scheme == SchemeName::riemann) return {name, true, Kernel::support, &riemann_rates<Kernel, T>};        \
-    return {name, false, Kernel::support, &monaghan_rates<Kernel, T>};                                         \
-  }                                                                                                            \
-  template <class T>                                                                                           \
-  PairLoops loops(KernelName kernel, SchemeName scheme, const char* name) {                                    \
-    return kernel == KernelName::gaussian ? loops<Gaussian, T>(scheme, name) : loops<WendlandC2, T>(scheme, name); \
-  }                                                                                                            \
-  PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) {               \
-    return precision == Precision::mixed ? loops<float>(kernel, scheme, name) : loops<double>(kernel, scheme, name); \
-  }                                                                                                            \
+using Pass = void (*)(const PairInput&, const PairOutput&);
+
+// The oldest two kernels and schemes have loops of their own; all else goes through one loop that serves any kernel, which
+// costs a little time in a run and saves much in the build (docs/performance.md).
+#define UNDEX_DECLARE_LEVEL(level)                                                              \
+  namespace level {                                                                             \
+  struct AnyKernel;                                                                             \
+  template <class Kernel, class T>                                                              \
+  void monaghan_rates(const PairInput&, const PairOutput&);                                     \
+  template <class Kernel, class T>                                                              \
+  void riemann_rates(const PairInput&, const PairOutput&);                                      \
+  template <class T>                                                                            \
+  void paper_rates(const PairInput&, const PairOutput&);                                        \
+  template <class T>                                                                            \
+  void monaghan_switch_rates(const PairInput&, const PairOutput&);                              \
+  template <class T>                                                                            \
+  void riemann_corrected_rates(const PairInput&, const PairOutput&);                            \
+  template <class T>                                                                            \
+  void concentration(const PairInput&, const PairOutput&);                                      \
+  void solid_deformation(const PairInput&, const PairOutput&);                                  \
+  void solid_forces(const PairInput&, const PairOutput&);                                       \
+  void contact_overlap(const PairInput&, const PairOutput&);                                    \
+  void contact_forces(const PairInput&, const PairOutput&);                                     \
+  template <class T>                                                                            \
+  Pass rates(KernelName kernel, SchemeName scheme) {                                            \
+    switch (scheme) {                                                                           \
+      case SchemeName::paper: return &paper_rates<T>;                                           \
+      case SchemeName::monaghan_switch: return &monaghan_switch_rates<T>;                       \
+      case SchemeName::riemann_corrected: return &riemann_corrected_rates<T>;                   \
+      case SchemeName::monaghan:                                                                \
+        return kernel == KernelName::gaussian      ? &monaghan_rates<Gaussian, T>               \
+               : kernel == KernelName::wendland_c2 ? &monaghan_rates<WendlandC2, T>             \
+                                                   : &monaghan_rates<AnyKernel, T>;             \
+      case SchemeName::riemann: break;                                                          \
+    }                                                                                           \
+    return kernel == KernelName::gaussian      ? &riemann_rates<Gaussian, T>                    \
+           : kernel == KernelName::wendland_c2 ? &riemann_rates<WendlandC2, T>                  \
+                                               : &riemann_rates<AnyKernel, T>;                  \
+  }                                                                                             \
+  PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) { \
+    return {name, second_row(scheme), kernel_choice(kernel, 1).support,                         \
+            precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme), \
+            precision == Precision::mixed ? &concentration<float> : &concentration<double>};    \
+  }                                                                                             \
   }
+
+namespace {
+
+SecondRow second_row(SchemeName scheme) {
+  switch (scheme) {
+    case SchemeName::riemann: return SecondRow::gradient;
+    case SchemeName::riemann_corrected: return SecondRow::corrected;
+    case SchemeName::monaghan_switch: return SecondRow::viscosity;
+    case SchemeName::monaghan:
+    case SchemeName::paper: break;
+  }
+  return SecondRow::none;
+}
+
+}  // namespace
+
+KernelChoice kernel_choice(KernelName kernel, int dimension) {
+  return with_kernel(kernel, [&](auto k) { return KernelChoice{kernel, k.support, k.norm(dimension)}; });
+}
 
 UNDEX_DECLARE_LEVEL(v4)
 UNDEX_DECLARE_LEVEL(v3)

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "sph_fluid/pair_data.hpp"
+#include "sph_fluid/pair_loop.hpp"
 
 namespace undex::sph {
 
@@ -32,7 +32,11 @@ struct Particles {
   /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
   /// memory serves as scratch.
   std::vector<FluidRow> predicted;
-  std::vector<GradientRow> gradient;  ///< of schemes that reconstruct
+  // Of schemes that have a use for them, as the next: what pairs read beside `predicted`.
+  std::vector<GradientRow> gradient;
+  std::vector<CorrectedRow> corrected;
+  std::vector<ViscosityRow> viscosity;          ///< a state
+  std::vector<ConcentrationRow> concentration;  ///< at the last evaluation; where particles are shifted
 
   std::size_t size() const { return x.size(); }
 
@@ -43,13 +47,17 @@ struct Particles {
     id.resize(n);
   }
 
-  /// Room for the rest, once the state is there: until then set-up needs memory of its own.
-  void make_room(bool with_gradients) {
+  /// Room for the rest, once the state is there: until then set-up needs memory of its own. Coefficients of viscosity start
+  /// from `alpha`.
+  void make_room(SecondRow second, double alpha, bool shifted) {
     const std::size_t n = size();
     rate.assign(n, SumRow{});
     earlier.assign(n, EarlierRates{});
     predicted.resize(n);
-    if (with_gradients) gradient.resize(n);
+    if (second == SecondRow::gradient) gradient.resize(n);
+    if (second == SecondRow::corrected) corrected.resize(n);
+    if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
+    if (shifted) concentration.assign(n, {});
   }
 
   /// Puts the particles of first .. first + order.size() into the order given by their present indices.
@@ -58,6 +66,7 @@ struct Particles {
     reorder(id, first, order);
     reorder(rate, first, order);
     reorder(earlier, first, order);
+    reorder(viscosity, first, order);
   }
 
   /// The rates of the last evaluation become those before it; new ones are summed up from zero.
@@ -75,7 +84,8 @@ struct Particles {
     for (const auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy}) bytes += a->capacity() * sizeof(double);
     return bytes + id.capacity() * sizeof(std::uint32_t) + rate.capacity() * sizeof(SumRow) +
            earlier.capacity() * sizeof(EarlierRates) + predicted.capacity() * sizeof(FluidRow) +
-           gradient.capacity() * sizeof(GradientRow);
+           gradient.capacity() * sizeof(GradientRow) + corrected.capacity() * sizeof(CorrectedRow) +
+           viscosity.capacity() * sizeof(ViscosityRow) + concentration.capacity() * sizeof(ConcentrationRow);
   }
 
  private:

@@ -7,21 +7,36 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
 #include "materials/burn.hpp"
 #include "materials/library.hpp"
+#include "sph_fluid/kernels.hpp"
 
 namespace undex::sph {
-
-enum class KernelName { gaussian, wendland_c2 };
 
 enum class SchemeName {
   monaghan,  ///< artificial viscosity (Chen et al. 2019, eqs 5, 6)
   riemann,   ///< limited linear reconstruction and an acoustic Riemann flux per pair
+  paper,     ///< monaghan with walls as published (paper_scheme.hpp)
+  monaghan_switch,    ///< monaghan with a coefficient per particle that rises where it is compressed (switch_scheme.hpp)
+  riemann_corrected,  ///< riemann with corrected kernel gradients (corrected_scheme.hpp)
 };
+
+/// Their names in scenes.
+inline constexpr std::pair<const char*, SchemeName> scheme_names[] = {{"monaghan", SchemeName::monaghan},
+                                                                      {"monaghan_switch", SchemeName::monaghan_switch},
+                                                                      {"paper", SchemeName::paper},
+                                                                      {"riemann", SchemeName::riemann},
+                                                                      {"riemann_corrected", SchemeName::riemann_corrected}};
+
+/// Does the scheme's dissipation come from Monaghan's viscosity?
+constexpr bool is_viscous(SchemeName scheme) {
+  return scheme == SchemeName::monaghan || scheme == SchemeName::paper || scheme == SchemeName::monaghan_switch;
+}
 
 /// Numbers in the loop over pairs. State and its integration are in double precision always.
 enum class Precision {
@@ -99,9 +114,11 @@ struct Numerics {
   KernelName kernel = KernelName::wendland_c2;
   SchemeName scheme = SchemeName::riemann;
   Precision precision = Precision::full;
-  double eta = 1.5;           ///< h/dx
-  double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6)
-  double beta = 10.0;         ///< and the quadratic one
+  double eta = WendlandC2::usual_eta;  ///< h/dx
+  double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6); with a switch, its upper bound
+  double beta = 10.0;         ///< and the quadratic one; with a switch, where alpha is at its bound
+  double alpha_min = 0.1;     ///< with a switch: alpha's lower bound
+  double shifting = 0.0;      ///< share of the usual shift of particles towards uniform concentration, 0..1 (shifting.hpp)
   double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density

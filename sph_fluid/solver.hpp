@@ -107,6 +107,10 @@ struct Fluid::Implementation {
   /// First half of the kick, drift, and the moving walls' half of the impulse.
   void kick_and_drift(double dt);
   void half_kick(double dt);
+  /// The coefficients of viscosity of a scheme with a switch over dt, their rates held (switch_scheme.hpp).
+  void advance_viscosity(double dt);
+  /// Moves particles down the gradient of their concentration (shifting.hpp); no other part of their state changes.
+  void shift(double dt);
   void sort();
   /// State predicted for the end of the step, pressure and sound speed, and the smoothing length. The prediction adds
   /// `half` times the last rates and `bend` times their last change to the half-kicked state.

@@ -34,8 +34,9 @@ StepLimit Fluid::Implementation::step_limit() {
   const Numerics& numerics = settings.numerics;
   limit.step = std::numeric_limits<double>::infinity();
   // Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, eq. 10.2, for a viscosity; a Riemann flux moves with the fluid.
-  const bool viscous = numerics.scheme == SchemeName::monaghan;
+  const bool viscous = is_viscous(numerics.scheme);
   const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
+  const double inverse_alpha = 1.0 / numerics.alpha;
   std::uint32_t worst = 0;
   constexpr double fastest = 1e7;  // [m/s]; a hundred times what any explosive does: the run has lost its physics
   const char* criterion = "Courant";
@@ -51,7 +52,8 @@ StepLimit Fluid::Implementation::step_limit() {
       const FluidRow& q = particles.predicted[i];
       const SumRow& rate = particles.rate[i];
       const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
-      const double signal = q.c + alpha * q.c + beta * rate.closing;
+      const double share = particles.viscosity.empty() ? 1.0 : particles.viscosity[i].alpha * inverse_alpha;
+      const double signal = q.c + share * (alpha * q.c + beta * rate.closing);
       const double courant = numerics.courant * q.h / signal;
       const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
       const double squeeze = 0.2 / (std::abs(rate.compression) + 1e-300);
@@ -94,8 +96,8 @@ const Body& Fluid::Implementation::body_of(std::uint32_t i) const {
 
 const char* Fluid::Implementation::remedy() const {
   if (settings.numerics.fixed_step) return "a smaller scheme.fixed_step, or none,";
-  return settings.numerics.scheme == SchemeName::monaghan ? "a smaller scheme.courant or a larger scheme.beta"
-                                                          : "a smaller scheme.courant";
+  return is_viscous(settings.numerics.scheme) ? "a smaller scheme.courant or a larger scheme.beta"
+                                              : "a smaller scheme.courant";
 }
 
 void Fluid::Implementation::stop_at_bad_value() const {

@@ -35,7 +35,7 @@ Fluid::Implementation::Implementation(const Settings& s)
   dissipated = settings.heat_before;
   fill();
   pack_walls();
-  particles.make_room(loops.needs_gradients);
+  particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0);
   evaluate(0.0, 0.0);
   watch_for_signals();
 }

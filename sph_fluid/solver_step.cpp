@@ -58,6 +58,7 @@ void Fluid::Implementation::kick_and_drift(double dt) {
     p.y[i] += dt * p.vy[i];
     p.z[i] += dt * p.vz[i];
   }
+  if (settings.numerics.shifting > 0.0) shift(dt);
   // A particle that crosses a symmetry plane changes places with its image.
   const struct {
     std::vector<double>&x, &v;
@@ -95,6 +96,7 @@ void Fluid::Implementation::half_kick(double dt) {
     p.rho[i] = advanced_density(p.rho[i], half * rate.compression);
   }
   clamps.density += clamped;
+  if (!p.viscosity.empty()) advance_viscosity(half);
   // Heat counts as dissipated where no energy field takes it up.
   for (const Group& group : groups)
     if (!materials::uses_energy(group.body->material.law))
@@ -103,6 +105,40 @@ void Fluid::Implementation::half_kick(double dt) {
   for (std::size_t w = 0; w < moving.size(); ++w)
     for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += half * moving_force[w][k];
   wall_work += half * wall_power;
+}
+
+void Fluid::Implementation::advance_viscosity(double dt) {
+  const double low = settings.numerics.alpha_min, high = settings.numerics.alpha;
+  Particles& p = particles;
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const FluidRow& q = p.predicted[i];
+    const double decay = 0.2 * q.c / q.h, source = std::max(p.rate[i].compression, 0.0);
+    // Linear in alpha: its solution stays within the bounds for any step.
+    const double goal = (decay * low + source * high) / (decay + source);
+    double& alpha = p.viscosity[i].alpha;
+    alpha = goal + (alpha - goal) * std::exp(-(decay + source) * dt);
+  }
+}
+
+void Fluid::Implementation::shift(double dt) {
+  const double share = settings.numerics.shifting;
+  Particles& p = particles;
+  for (const Group& group : groups) {
+    // Diffusion with 2 h times a speed (Skillen et al. 2013, Comput. Methods Appl. Mech. Eng. 265, 163), here that of the
+    // neighbour who comes closest: the same for every observer, and none at rest. At most a twentieth of a spacing a step.
+    const double farthest = 0.05 * share * group.spacing;
+#pragma omp parallel for schedule(static)
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const ConcentrationRow& c = p.concentration[i];
+      const Vec3 wanted = -2.0 * share * p.predicted[i].h * p.rate[i].closing * dt * Vec3(c.x, c.y, c.z);
+      const double length = wanted.norm();
+      const Vec3 step = length > farthest ? Vec3(farthest / length * wanted) : wanted;
+      p.x[i] += step[0];
+      p.y[i] += step[1];
+      p.z[i] += step[2];
+    }
+  }
 }
 
 void Fluid::Implementation::sort() {
@@ -268,13 +304,17 @@ PairInput Fluid::Implementation::pair_input() {
   }
   // Rates are wanted within reach of the box, which takes pairs of particles within reach of those, whose fluxes take
   // gradients within reach once more.
-  in.margin = loops.needs_gradients ? 3.0 * reach : 2.0 * reach;
+  in.margin = loops.reconstructs() ? 3.0 * reach : 2.0 * reach;
   in.dimension = settings.dimension;
   in.x = particles.x.data();
   in.y = particles.y.data();
   in.z = particles.z.data();
   in.fluid = particles.predicted.data();
+  in.kernel = kernel_choice(settings.numerics.kernel, settings.dimension);
   in.gradient = particles.gradient.data();
+  in.corrected = particles.corrected.data();
+  in.viscosity = particles.viscosity.data();
+  in.concentration = particles.concentration.data();
   in.groups = views.data();
   in.group_count = int(views.size());
   in.wall_x = wall_place[0].data();
@@ -296,9 +336,10 @@ void Fluid::Implementation::pairs(const PairInput& in) {
   interactions.resize(blocks.block_count());
   std::fill(wall_force.begin(), wall_force.end(), ForceRow{});
   const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), interactions.data()};
+  if (settings.numerics.shifting > 0.0) loops.concentration(in, out);
   loops.rates(in, out);
   for (const long long count : interactions) interaction_sum += count;
-  if (!loops.needs_gradients) return;
+  if (loops.second != SecondRow::gradient) return;
   long held = 0;
   for (const GroupView& group : views)
     if (group.gas)

@@ -154,6 +154,9 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "19:1: [[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid take [[walls]]\n"},
       {"side of a plane", with(impact, "position = -0.01", "free_side = \"left\""), "22:13: planes.0.free_side: unknown 'left'; known: above, below\n"},
       {"field of solids", impact + "[output]\nsolid_fields = [\"mises\"]\n", "28:16: output.solid_fields: unknown 'mises'"},
+      {"switch without room", two_gases + "[scheme]\nname = \"monaghan_switch\"\nalpha = 0.05\n",
+       "21:9: scheme.alpha = 0.05 is the upper bound of a coefficient whose lower one is scheme.alpha_min = 0.1 with scheme.name = "
+       "\"monaghan_switch\": raise alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")\n"},
       {"scheme without solids", two_gases + "[solid_scheme]\neta = 1.2\n", "19:1: [solid_scheme] without [[solids]]: add one, or remove it\n"},
       {"nothing", "end_time = 1\n", "1:1: the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one\n"},
   };

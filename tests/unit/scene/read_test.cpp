@@ -134,6 +134,31 @@ TEST(Read, InstantaneousBurnHasTwoSpellings) {
 TEST(Read, EachKernelHasItsOwnSmoothingLength) {
   EXPECT_EQ(read_text(two_gases + "[scheme]\nkernel = \"gaussian\"\n").fluid.numerics.eta, 1.2);
   EXPECT_EQ(read_text(two_gases + "[scheme]\nkernel = \"gaussian\"\neta = 1.3\n").fluid.numerics.eta, 1.3);
+  for (const sph::KernelName name : sph::all_kernels) {
+    const std::string word = sph::with_kernel(name, [](auto kernel) { return kernel.name; });
+    const sph::Numerics numerics = read_text(two_gases + "[scheme]\nkernel = \"" + word + "\"\n").fluid.numerics;
+    EXPECT_EQ(numerics.kernel, name);
+    EXPECT_EQ(numerics.eta, sph::with_kernel(name, [](auto kernel) { return kernel.usual_eta; })) << word;
+  }
+}
+
+/// Each scheme brings what it is published with, where the scene does not say otherwise.
+TEST(Read, SchemesBringTheirDefaults) {
+  const auto numerics = [](const std::string& keys) { return read_text(two_gases + "[scheme]\n" + keys + "\n").fluid.numerics; };
+  for (const auto& [word, scheme] : sph::scheme_names)
+    EXPECT_EQ(numerics("name = \"" + std::string(word) + "\"").scheme, scheme);
+  const sph::Numerics paper = numerics("name = \"paper\"");
+  EXPECT_EQ(paper.kernel, sph::KernelName::gaussian);
+  EXPECT_EQ(paper.eta, 1.2);
+  EXPECT_EQ(paper.alpha, 1.0);
+  EXPECT_EQ(paper.beta, 10.0);
+  EXPECT_EQ(numerics("name = \"paper\"\nkernel = \"wendland_c2\"").eta, 1.5);
+  EXPECT_EQ(numerics("name = \"monaghan\"").beta, 10.0);
+  const sph::Numerics switched = numerics("name = \"monaghan_switch\"");
+  EXPECT_EQ(switched.alpha, 1.0);
+  EXPECT_EQ(switched.alpha_min, 0.1);
+  EXPECT_EQ(switched.beta, 2.0);
+  EXPECT_EQ(switched.shifting, 0.0);
 }
 
 TEST(Read, CellSizeGivesTheCountsOfTheWholeTube) {

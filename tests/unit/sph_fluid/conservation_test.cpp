@@ -95,7 +95,9 @@ TEST_P(Conservation, ClosedBlob) {
       const Balance b = balance(run(make(d)));
       ASSERT_GT(b.momentum_scale, 0.0);
       EXPECT_LT(b.momentum.norm(), 1e-12 * b.momentum_scale);
-      EXPECT_LT(b.angular.norm(), 1e-12 * b.angular_scale);
+      if (GetParam().scheme != SchemeName::riemann_corrected) {
+        EXPECT_LT(b.angular.norm(), 1e-12 * b.angular_scale);
+      }
       EXPECT_LT(std::abs(b.energy), 1e-12 * b.energy_scale);
     }
 }
@@ -156,7 +158,7 @@ TEST_P(Conservation, SymmetryPlanesDoNoWork) {
 
 /// Viscosity heats every particle; of a pairwise flux only the sum must be positive.
 TEST_P(Conservation, HeatIsPositive) {
-  const double least = GetParam().scheme == SchemeName::monaghan ? 0.0 : -std::numeric_limits<double>::infinity();
+  const double least = is_viscous(GetParam().scheme) ? 0.0 : -std::numeric_limits<double>::infinity();
   const Result r = run(make(3));
   double total = 0;
   for (const Rate& rate : r.rates) {
@@ -168,6 +170,8 @@ TEST_P(Conservation, HeatIsPositive) {
 
 /// A solid rotation is no compression and calls for no viscosity.
 TEST_P(Conservation, RotationIsFree) {
+  if (GetParam().scheme == SchemeName::riemann_corrected)
+    GTEST_SKIP() << "its pair forces turn off the line between scattered particles";
   Sample sample = make(3);
   sample.sets.resize(1);
   for (Particle& q : sample.sets[0].particles) {
@@ -187,7 +191,12 @@ INSTANTIATE_TEST_SUITE_P(, Conservation,
                          ::testing::Values(Scheme{SchemeName::monaghan, KernelName::wendland_c2, "monaghan_wendland"},
                                            Scheme{SchemeName::monaghan, KernelName::gaussian, "monaghan_gaussian"},
                                            Scheme{SchemeName::riemann, KernelName::wendland_c2, "riemann_wendland"},
-                                           Scheme{SchemeName::riemann, KernelName::gaussian, "riemann_gaussian"}),
+                                           Scheme{SchemeName::riemann, KernelName::gaussian, "riemann_gaussian"},
+                                           Scheme{SchemeName::riemann, KernelName::quintic_spline, "riemann_quintic"},
+                                           Scheme{SchemeName::paper, KernelName::gaussian, "paper_gaussian"},
+                                           Scheme{SchemeName::monaghan_switch, KernelName::wendland_c2, "switch_wendland"},
+                                           Scheme{SchemeName::riemann_corrected, KernelName::wendland_c2, "corrected_wendland"},
+                                           Scheme{SchemeName::riemann_corrected, KernelName::wendland_c6, "corrected_wendland_c6"}),
                          [](const auto& c) { return c.param.name; });
 
 /// The gradients that the Riemann scheme reconstructs from are exact for linear fields, even among scattered neighbours.
@@ -312,9 +321,11 @@ TEST_P(Conservation, FreeBlobRun) {
     EXPECT_LT((end.momentum - start.momentum).norm(), 1e-12 * speed_sum);
     error[fine] = std::abs(total(end) - total(start)) / end.kinetic;
   }
-  // Measured at the usual Courant number: 4e-4 of the kinetic energy, an eighth of it at half the step.
-  EXPECT_LT(error[0], 2e-3);
-  EXPECT_LT(error[1], 0.4 * error[0]);
+  // Measured at the usual Courant number: 3e-4 to 1.3e-3 of the kinetic energy, less than a quarter of it at half the step. Corrected
+  // gradients are stiffer at free surfaces: 2.5e-3 and 6e-3 (Wendland C2, C6), an eighth or less at half the step.
+  const bool corrected = GetParam().scheme == SchemeName::riemann_corrected;
+  EXPECT_LT(error[0], corrected ? 1e-2 : 2e-3);
+  EXPECT_LT(error[1], (corrected ? 0.2 : 0.4) * error[0]);
   RecordProperty("energy_error_of_kinetic", std::to_string(error[0] * 1e6) + "e-6, half step " + std::to_string(error[1] * 1e6) + "e-6");
 }
 
@@ -344,7 +355,7 @@ TEST_P(Conservation, EnergyDriftIsOfSecondOrder) {
   RecordProperty("drift", std::to_string(drift[0] * 1e9) + "e-9 " + std::to_string(drift[2] * 1e9) + "e-9");
   RecordProperty("order", std::to_string(order));
   // The limiter's kinks cost the Riemann scheme its second order.
-  EXPECT_GT(order, GetParam().scheme == SchemeName::riemann ? 1.0 : 1.7) << drift[0] << " " << drift[1] << " " << drift[2];
+  EXPECT_GT(order, is_viscous(GetParam().scheme) ? 1.7 : 1.0) << drift[0] << " " << drift[1] << " " << drift[2];
 }
 
 }  // namespace

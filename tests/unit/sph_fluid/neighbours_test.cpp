@@ -40,6 +40,7 @@ struct Case {
   bool bodies;               // a second body of other spacing with variable h, a third of other constant h
   std::array<bool, 3> mirror;
   int wall;                  // 0: none, 1: free slip, 2: no slip, 3: both, moving
+  SchemeName scheme = SchemeName::monaghan;
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -49,6 +50,7 @@ Sample make(const Case& c) {
   Sample sample;
   sample.dimension = c.dimension;
   sample.kernel = c.kernel;
+  sample.scheme = c.scheme;
   const double dx = 0.1, h = (c.kernel == KernelName::gaussian ? 1.21 : 1.51) * dx;  // no lattice distance on the support's edge
   for (int a = 0; a < 3; ++a) sample.mirror[a] = c.mirror[a];
   const Vec3 size(c.dimension == 1 ? 6.0 : 0.9, c.dimension > 1 ? 0.8 : 0.0, c.dimension > 2 ? 0.7 : 0.0);
@@ -111,6 +113,16 @@ std::vector<Case> cases() {
     all.push_back({name + "_3d_plane_y", 3, kernel, false, true, {false, true, false}, 0});
     all.push_back({name + "_3d_planes_xz", 3, kernel, true, true, {true, false, true}, 2});
   }
+  // The loop that serves any kernel.
+  for (const KernelName kernel : all_kernels) {
+    const std::string name = with_kernel(kernel, [](auto k) { return k.name; });
+    for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::paper, SchemeName::monaghan_switch}) {
+      if (scheme == SchemeName::monaghan && (kernel == KernelName::gaussian || kernel == KernelName::wendland_c2)) continue;
+      const std::string in = std::string(scheme == SchemeName::paper ? "paper_" : scheme == SchemeName::monaghan ? "" : "switch_") + name;
+      for (int d = 1; d <= 3; ++d)
+        all.push_back({in + "_any_" + std::to_string(d) + "d", d, kernel, false, true, {true, d > 1, d > 2}, 3, scheme});
+    }
+  }
   return all;
 }
 
@@ -154,7 +166,8 @@ TEST(PairLoops, InstructionSetsAgree) {
 
 /// Bit for bit: the order of every sum depends on the particles alone.
 TEST(PairLoops, ThreadsDoNotChangeASum) {
-  for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann}) {
+  for (const auto& [name, scheme] : scheme_names) {
+    SCOPED_TRACE(name);
     Dice dice(11);
     Sample sample;
     sample.scheme = scheme;

@@ -73,10 +73,16 @@ struct Rate {
 struct Result {
   std::vector<Particle> particles;
   std::vector<WallParticle> walls;
-  std::vector<GradientRow> gradients;  ///< of schemes that reconstruct
+  std::vector<GradientRow> gradients;  ///< of the Riemann scheme
+  std::vector<ConcentrationRow> concentrations;
   std::vector<Rate> rates, wall_forces;
   long long interactions = 0;
 };
+
+/// The coefficient of viscosity of a particle: anything within its bounds where it is a state, the same for an image.
+inline double alpha_of(const Sample& s, const Particle& q) {
+  return s.scheme == SchemeName::monaghan_switch ? s.alpha * (0.1 + 0.9 * std::abs(std::sin(1e4 * q.x))) : s.alpha;
+}
 
 inline Result run(const Sample& sample) {
   const PairLoops loops = pair_loops(sample.kernel, sample.scheme, sample.precision);
@@ -140,8 +146,16 @@ inline Result run(const Sample& sample) {
   in.y = y.data();
   in.z = z.data();
   in.fluid = rows.data();
-  result.gradients.resize(loops.needs_gradients ? n : 0);
+  in.kernel = kernel_choice(sample.kernel, sample.dimension);
+  result.gradients.resize(loops.second == SecondRow::gradient ? n : 0);
   in.gradient = result.gradients.data();
+  std::vector<CorrectedRow> corrected(loops.second == SecondRow::corrected ? n : 0);
+  in.corrected = corrected.data();
+  std::vector<ViscosityRow> viscosity(loops.second == SecondRow::viscosity ? n : 0);
+  for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i].alpha = alpha_of(sample, result.particles[i]);
+  in.viscosity = viscosity.data();
+  result.concentrations.resize(n);
+  in.concentration = result.concentrations.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
   in.wall_x = wx.data();
@@ -161,7 +175,9 @@ inline Result run(const Sample& sample) {
   std::vector<long long> interactions(blocks.block_count());
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
-  loops.rates(in, {sums.data(), m > 0 ? forces.data() : nullptr, interactions.data()});
+  const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, interactions.data()};
+  loops.concentration(in, out);
+  loops.rates(in, out);
   omp_set_num_threads(before);
   for (Scratch& s : scratch) release(s);
   for (std::size_t i = 0; i < n; ++i) {
@@ -187,27 +203,54 @@ inline Vec3 place(const WallParticle& q) { return {q.x, q.y, q.z}; }
 inline Vec3 speed(const Particle& q) { return {q.vx, q.vy, q.vz}; }
 inline Vec3 speed(const WallParticle& q) { return {q.vx, q.vy, q.vz}; }
 
-/// (dW/dr)/r of the kernel named, from its formula.
-inline double reference_gradient(KernelName kernel, double r, double h, int d) {
-  const double pi = std::numbers::pi, q = r / h;
-  if (kernel == KernelName::wendland_c2) {
-    if (q >= 2.0) return 0.0;
-    const double norm = d == 1 ? 0.75 : d == 2 ? 7.0 / (4.0 * pi) : 21.0 / (16.0 * pi);
-    return -5.0 * norm * std::pow(1.0 - q / 2.0, 3) / std::pow(h, d + 2);
+/// w(q) of the kernel named, from its formula.
+inline double reference_shape(KernelName kernel, double q) {
+  const auto above = [&](double end, int power) { return q < end ? std::pow(end - q, power) : 0.0; };
+  const double s = q < 2.0 ? 1.0 - q / 2.0 : 0.0;
+  switch (kernel) {
+    case KernelName::gaussian: return q < 3.0 ? std::exp(-q * q) - std::exp(-9.0) : 0.0;
+    case KernelName::wendland_c2: return std::pow(s, 4) * (2 * q + 1);
+    case KernelName::wendland_c4: return std::pow(s, 6) * (35.0 / 12.0 * q * q + 3 * q + 1);
+    case KernelName::wendland_c6: return std::pow(s, 8) * (4 * q * q * q + 6.25 * q * q + 4 * q + 1);
+    case KernelName::cubic_spline: return above(2, 3) / 4 - above(1, 3);
+    case KernelName::quintic_spline: return above(3, 5) - 6 * above(2, 5) + 15 * above(1, 5);
   }
-  if (q >= 3.0) return 0.0;
-  // Integral of exp(-q^2) - exp(-9) over the ball of radius 3, shell by shell (Simpson's rule).
-  double integral = 0;
-  const int n = 4000;
-  for (int k = 0; k <= n; ++k) {
-    const double s = 3.0 * k / n, weight = (k == 0 || k == n ? 1.0 : k % 2 ? 4.0 : 2.0) * 3.0 / n / 3.0;
-    const double shell = d == 1 ? 2.0 : d == 2 ? 2.0 * pi * s : 4.0 * pi * s * s;
-    integral += weight * shell * (std::exp(-s * s) - std::exp(-9.0));
-  }
-  return -2.0 / integral * std::exp(-q * q) / std::pow(h, d + 2);
+  return 0.0;
 }
 
-inline double reference_support(KernelName kernel) { return kernel == KernelName::gaussian ? 3.0 : 2.0; }
+/// (dw/dq)/q.
+inline double reference_slope(KernelName kernel, double q) {
+  const auto above = [&](double end, int power) { return q < end ? std::pow(end - q, power) : 0.0; };
+  const double s = q < 2.0 ? 1.0 - q / 2.0 : 0.0;
+  switch (kernel) {
+    case KernelName::gaussian: return q < 3.0 ? -2.0 * std::exp(-q * q) : 0.0;
+    case KernelName::wendland_c2: return -5.0 * std::pow(s, 3);
+    case KernelName::wendland_c4:
+      return (-3 * std::pow(s, 5) * (35.0 / 12.0 * q * q + 3 * q + 1) + std::pow(s, 6) * (35.0 / 6.0 * q + 3)) / q;
+    case KernelName::wendland_c6:
+      return (-4 * std::pow(s, 7) * (4 * q * q * q + 6.25 * q * q + 4 * q + 1) + std::pow(s, 8) * (12 * q * q + 12.5 * q + 4)) / q;
+    case KernelName::cubic_spline: return (-0.75 * above(2, 2) + 3 * above(1, 2)) / q;
+    case KernelName::quintic_spline: return (-5 * above(3, 4) + 30 * above(2, 4) - 75 * above(1, 4)) / q;
+  }
+  return 0.0;
+}
+
+inline double reference_support(KernelName kernel) {
+  return kernel == KernelName::gaussian || kernel == KernelName::quintic_spline ? 3.0 : 2.0;
+}
+
+/// The factor by which (dw/dq)/q is (dW/dr)/r at h = 1: w's integral over the ball, shell by shell (Simpson's rule).
+inline double reference_scale(KernelName kernel, int d) {
+  const double pi = std::numbers::pi, end = reference_support(kernel);
+  double integral = 0;
+  const int n = 6000;
+  for (int k = 0; k <= n; ++k) {
+    const double s = end * k / n, weight = (k == 0 || k == n ? 1.0 : k % 2 ? 4.0 : 2.0) * end / n / 3.0;
+    const double shell = d == 1 ? 2.0 : d == 2 ? 2.0 * pi * s : 4.0 * pi * s * s;
+    integral += weight * shell * reference_shape(kernel, s);
+  }
+  return 1.0 / integral;
+}
 
 /// Monaghan's viscosity (eq. 6) with alpha and beta; `approach` is v_ij . x_ij.
 inline double reference_viscosity(const Sample& s, double approach, double r2, double h, double c, double rho) {
@@ -244,16 +287,18 @@ inline bool has_image(const Sample& s, int image) {
 inline void add_wall(const Sample& s, const Particle& i, const WallParticle& w, Rate& sum, double gradient) {
   const Vec3 x = place(i) - place(w), u = speed(i) - speed(w), n(w.nx, w.ny, w.nz);
   const Vec3 across = w.slip > 0.5 ? Vec3(x.dot(n) * n) : x;
-  const double approach = 2.0 * u.dot(across);
-  const double Pi = reference_viscosity(s, approach, x.squaredNorm(), i.h, i.c, i.rho);
+  const bool paper = s.scheme == SchemeName::paper;  // v_d = v_w, and the dummy's side of the work is heat
+  const double approach = (paper ? 1.0 : 2.0) * u.dot(across);
+  const double Pi = alpha_of(s, i) / s.alpha * reference_viscosity(s, approach, x.squaredNorm(), i.h, i.c, i.rho);
   const double mass = i.rho * w.volume;
   const Vec3 pull = -mass * (2.0 * i.p / (i.rho * i.rho) + Pi) * gradient * across;
   sum.a += pull;
   sum.size += pull.cwiseAbs();
   sum.compression += w.volume * gradient * approach;
   sum.compression_size += std::abs(w.volume * gradient * approach);
-  sum.heat += 0.5 * mass * Pi * gradient * approach;
-  sum.heat_size += std::abs(0.5 * mass * Pi * gradient * approach);
+  const double heat = mass * (paper ? i.p / (i.rho * i.rho) + Pi : 0.5 * Pi) * gradient * approach;
+  sum.heat += heat;
+  sum.heat_size += std::abs(heat);
   sum.closing = std::max(sum.closing, std::max(0.0, -i.h * approach / (x.squaredNorm() + 0.01 * i.h * i.h)));
 }
 
@@ -262,13 +307,10 @@ inline Result brute_force(const Sample& s, const Result& order) {
   Result result = order;
   const double support = reference_support(s.kernel);
   result.interactions = 0;
-  // The gradient is a function of q alone but for a factor: tabulating the Gaussian's norm would only hide it.
-  const double scale = reference_gradient(s.kernel, 0.0, 1.0, s.dimension);
+  const double scale = reference_scale(s.kernel, s.dimension);
   const auto gradient = [&](double r, double h) {
     const double q = r / h;
-    if (q >= support) return 0.0;
-    const double shape = s.kernel == KernelName::gaussian ? std::exp(-q * q) : std::pow(1.0 - q / 2.0, 3);
-    return scale * shape / std::pow(h, s.dimension + 2);
+    return q < support ? scale * reference_slope(s.kernel, q) / std::pow(h, s.dimension + 2) : 0.0;
   };
   for (std::size_t k = 0; k < order.particles.size(); ++k) {
     const Particle& i = order.particles[k];
@@ -284,7 +326,7 @@ inline Result brute_force(const Sample& s, const Result& order) {
         if (r >= support * h) continue;
         ++result.interactions;
         const double F = gradient(r, h), approach = v.dot(x), mass = j.rho * j.volume;
-        const double Pi = reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
+        const double Pi = 0.5 * (alpha_of(s, i) + alpha_of(s, j)) / s.alpha * reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
         const Vec3 push = -mass * ((i.p + j.p) / (i.rho * j.rho) + Pi) * F * x;
         sum.a += push;
         sum.size += push.cwiseAbs();
