@@ -73,6 +73,8 @@ void read_scheme(const TableReader& top, Draft& draft) {
                                                                       {"mixed", sph::Precision::mixed}});
   // each kernel's own usual smoothing length
   numerics.eta = sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
+  // C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2, where waves grow (docs/performance.md).
+  if (numerics.kernel == sph::KernelName::wendland_c6) numerics.courant = 0.27;
   if (numerics.scheme == sph::SchemeName::monaghan_switch) numerics.beta = 2.0;
   table.read("eta", numerics.eta);
   table.read("alpha", numerics.alpha);

@@ -1,4 +1,5 @@
-// The Riemann scheme's pairs (its gradients: reconstruction_loop.cpp), compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+// The Riemann scheme's pairs, compiled once per instruction set; see pair_loop.hpp for the choice at start-up. Its gradients are
+// compiled in reconstruction_loop.cpp.
 #include "sph_fluid/cluster_work.hpp"
 #include "sph_fluid/riemann_scheme.hpp"
 

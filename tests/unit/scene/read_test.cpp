@@ -138,6 +138,7 @@ TEST(Read, EachKernelHasItsOwnSmoothingLength) {
     const std::string word = sph::with_kernel(name, [](auto kernel) { return kernel.name; });
     const sph::Numerics numerics = read_text(two_gases + "[scheme]\nkernel = \"" + word + "\"\n").fluid.numerics;
     EXPECT_EQ(numerics.kernel, name);
+    EXPECT_EQ(numerics.courant, name == sph::KernelName::wendland_c6 ? 0.27 : 0.35);
     EXPECT_EQ(numerics.eta, sph::with_kernel(name, [](auto kernel) { return kernel.usual_eta; })) << word;
   }
 }

@@ -234,7 +234,9 @@ TEST(Shifting, ConcentrationGradient) {
     for (const Particle& j : uneven.particles) {
       const Vec3 x = place(uneven.particles[i]) - place(j);
       const double q = x.norm() / j.h;
-      if (q > 0 && q < 2) sum += j.volume * reference_scale(KernelName::wendland_c2, d) * reference_slope(KernelName::wendland_c2, q) / std::pow(j.h, d + 2) * x;
+      if (q <= 0 || q >= 2) continue;
+      const double slope = reference_slope(KernelName::wendland_c2, q) / std::pow(j.h, d + 2);
+      sum += j.volume * reference_scale(KernelName::wendland_c2, d) * slope * x;
     }
     const ConcentrationRow& c = uneven.concentrations[i];
     EXPECT_GT(sum.norm(), 0.01);
