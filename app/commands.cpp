@@ -4,9 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "app/describe.hpp"
 #include "app/run.hpp"
@@ -45,11 +43,8 @@ scene::Scene read_scene(const SceneArguments& arguments) {
 }
 
 std::string whole_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw FileError(file.string() + ": cannot be read any more; check the file");
-  return text.str();
+  if (const auto text = output::text_of(file)) return *text;
+  throw FileError(file.string() + ": cannot be read any more; check the file");
 }
 
 /// Folders that may hold scenes, the nearest first.

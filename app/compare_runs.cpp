@@ -331,9 +331,8 @@ ComparedBlock result_block(const std::vector<Run>& runs) {
     const End& end = *std::find_if(ends.begin(), ends.end(), [&](const End& each) { return name.ends_with(each.name); });
     std::vector<double> values;
     for (const Run& run : runs) {
-      values.push_back(nan);
-      for (const auto& [key, value] : run.folder.record.metrics)
-        if (key == name) values.back() = end.factor * value;
+      const double* value = output::find_number(run.folder.record.metrics, name);
+      values.push_back(value ? end.factor * *value : nan);
     }
     const std::string label = spoken(name.substr(0, name.size() - std::string(end.name).size()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
@@ -392,18 +391,13 @@ ComparedBlock norm_block(const std::vector<Compared>& all) {
 // ------------------------------------------------------------------------------------------------ what is said
 
 std::string runs_text(const std::vector<Run>& runs, const std::vector<std::string>& labels) {
-  std::size_t longest = 0, path = 0;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    longest = std::max(longest, output::width(labels[r]));
-    path = std::max(path, output::width(runs[r].folder.path.string()));
-  }
-  std::string text;
+  std::vector<std::vector<std::string>> lines;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const output::RunRecord& record = runs[r].folder.record;
-    text += output::padded_right(labels[r], longest) + "   " + output::padded_right(runs[r].folder.path.string(), path) + "   " +
-            record.scene + ", " + record.status + output::print(" at %.6g us", 1e6 * record.time_s) + "\n";
+    lines.push_back({labels[r], runs[r].folder.path.string(),
+                     record.scene + ", " + record.status + output::print(" at %.6g us", 1e6 * record.time_s)});
   }
-  return text;
+  return output::aligned(lines, 3);
 }
 
 /// The settings that differ, the first of them only.
@@ -417,22 +411,13 @@ std::string settings_text(const std::vector<output::DifferingSetting>& settings,
     if (const double number = std::strtod(value.c_str(), &end); *end == '\0') return output::print("%.5g", number);
     return value.size() > longest_value ? value.substr(0, longest_value - 3) + "..." : value;
   };
-  const std::string title = "settings that differ";
-  std::size_t left = title.size();
-  std::vector<std::size_t> widths;
-  for (std::size_t s = 0; s < shown; ++s) left = std::max(left, 2 + settings[s].key.size());
-  for (std::size_t r = 0; r < labels.size(); ++r) {
-    widths.push_back(output::width(labels[r]));
-    for (std::size_t s = 0; s < shown; ++s) widths[r] = std::max(widths[r], output::width(cell(settings[s].values[r])));
-  }
-  std::string text = "\n" + output::padded_right(title, left);
-  for (std::size_t r = 0; r < labels.size(); ++r) text += "   " + output::padded_left(labels[r], widths[r]);
-  text += "\n";
+  std::vector<std::vector<std::string>> lines{{"settings that differ"}};
+  lines[0].insert(lines[0].end(), labels.begin(), labels.end());
   for (std::size_t s = 0; s < shown; ++s) {
-    text += output::padded_right("  " + settings[s].key, left);
-    for (std::size_t r = 0; r < labels.size(); ++r) text += "   " + output::padded_left(cell(settings[s].values[r]), widths[r]);
-    text += "\n";
+    lines.push_back({"  " + settings[s].key});
+    for (const std::string& value : settings[s].values) lines.back().push_back(cell(value));
   }
+  std::string text = "\n" + output::aligned(lines, 1);
   if (settings.size() > shown) text += "  and " + std::to_string(settings.size() - shown) + " more: comparison.csv has all\n";
   return text;
 }
@@ -456,9 +441,8 @@ std::vector<ComparedBlock> reference_blocks(const std::vector<Run>& runs, const 
     for (const output::ReferenceTable::Row& row : table.rows) {
       std::vector<double> values;
       for (const Run& run : runs) {
-        values.push_back(nan);
-        for (const auto& [name, value] : run.folder.record.metrics)
-          if (name == row.metric) values.back() = row.scale * value;
+        const double* value = output::find_number(run.folder.record.metrics, row.metric);
+        values.push_back(value ? row.scale * *value : nan);
       }
       if (!std::isnan(row.values[s].value))
         blocks.back().rows.push_back(output::compared(row.label, row.unit, std::move(values), 0, row.values[s].value));
@@ -583,7 +567,7 @@ int compare_runs(const CompareArguments& arguments) {
   if (reference.table &&
       std::none_of(reference.table->rows.begin(), reference.table->rows.end(), [&](const output::ReferenceTable::Row& row) {
         return std::any_of(metrics.begin(), metrics.end(), [&](const output::LabelledMetrics& run) {
-          return std::any_of(run.metrics.begin(), run.metrics.end(), [&](const auto& each) { return each.first == row.metric; });
+          return output::find_number(run.metrics, row.metric) != nullptr;
         });
       }))
     throw UsageError(arguments.reference + ": none of its metrics is a result of these runs; give the table of their scenes' "

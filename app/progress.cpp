@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "output/text_table.hpp"
+
 namespace undex::app {
 namespace {
 
@@ -13,17 +15,6 @@ constexpr double line_interval = 5.0;  // [s] of wall time
 constexpr double bar_interval = 0.2;
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
-
-std::string duration_text(double s) {
-  char text[40];
-  if (s < 100)
-    std::snprintf(text, sizeof text, "%.0f s", s);
-  else if (s < 6000)
-    std::snprintf(text, sizeof text, "%.0f min %02.0f s", std::floor(s / 60), std::floor(s - 60 * std::floor(s / 60)));
-  else
-    std::snprintf(text, sizeof text, "%.1f h", s / 3600);
-  return text;
-}
 
 }  // namespace
 
@@ -69,7 +60,7 @@ void Progress::line(const Simulation& simulation) {
   std::printf("%7ld %11.4f %10.5f  %-34.34s %+10.2e %12.4f %9.1f %10s\n", simulation.steps(), simulation.time() * 1e6,
               simulation.last_step_size() * 1e6, simulation.last_step().c_str(), simulation.energy().error(),
               simulation.maximum_pressure() * 1e-9, (simulation.steps() - last_steps_) / since,
-              share > 0 ? duration_text(elapsed * (1 - share) / share).c_str() : "?");
+              share > 0 ? output::duration(elapsed * (1 - share) / share).c_str() : "?");
   std::fflush(stdout);
   last_line_ = now;
   last_steps_ = simulation.steps();
@@ -79,7 +70,7 @@ void Progress::bar(double share, double seconds_left) {
   constexpr int width = 40;
   const int filled = std::clamp(int(share * width), 0, width);
   std::printf("\r[%s%s] %5.1f %%, %s left   ", std::string(filled, '#').c_str(), std::string(width - filled, ' ').c_str(),
-              100 * share, duration_text(seconds_left).c_str());
+              100 * share, output::duration(seconds_left).c_str());
   std::fflush(stdout);
   bar_shown_ = true;
 }

@@ -43,12 +43,6 @@ bool read_value(const std::string& cell, ReferenceTable::Value& value) {
   return sign == std::string::npos || read_number(cell.substr(sign + 2), value.uncertainty);
 }
 
-const double* find_metric(const NamedNumbers& metrics, const std::string& name) {
-  for (const auto& [key, value] : metrics)
-    if (key == name) return &value;
-  return nullptr;
-}
-
 }  // namespace
 
 ReferenceTable read_reference_table(const std::filesystem::path& path) {
@@ -102,7 +96,7 @@ std::string format_comparison(const std::vector<LabelledMetrics>& runs, const Re
     std::vector<double> values;
     bool known = false;
     for (const LabelledMetrics& run : runs) {
-      const double* mine = find_metric(run.metrics, row.metric);
+      const double* mine = find_number(run.metrics, row.metric);
       known = known || mine;
       values.push_back(mine ? *mine * row.scale : nan);
     }

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 
 #include "core/errors.hpp"
 
@@ -41,6 +43,13 @@ const char* remedy(int error_number) {
 void throw_file_error(const std::string& action, const std::filesystem::path& path, int error_number) {
   throw FileError("cannot " + action + " " + path.string() + ": " +
                   (error_number != 0 ? std::strerror(error_number) : "unknown reason") + "; " + remedy(error_number));
+}
+
+std::optional<std::string> text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  return file ? std::optional(text.str()) : std::nullopt;
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {

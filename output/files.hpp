@@ -2,12 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace undex::output {
 
 /// Throws FileError "cannot <action> <path>: <reason>; <remedy>" for the given errno value.
 [[noreturn]] void throw_file_error(const std::string& action, const std::filesystem::path& path, int error_number);
+
+/// The whole of a file, or nothing where it cannot be read.
+std::optional<std::string> text_of(const std::filesystem::path& path);
 
 /// Writes `text` beside `path`, then renames it there: a reader (or a kill) sees the old file or the new one, never a
 /// part. Throws FileError.

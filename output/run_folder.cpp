@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "core/errors.hpp"
+#include "output/files.hpp"
 
 namespace undex::output {
 
@@ -29,11 +28,8 @@ void require_finished_run(const fs::path& path) {
 }
 
 std::string whole_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw FileError(path.string() + ": cannot be read; run the scene again, or take it from the run's original folder");
-  return text.str();
+  if (const auto text = text_of(path)) return *text;
+  throw FileError(path.string() + ": cannot be read; run the scene again, or take it from the run's original folder");
 }
 
 std::vector<HistoryColumn> finite_history(const fs::path& path) {

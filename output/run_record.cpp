@@ -48,6 +48,12 @@ NamedNumbers numbers(const nlohmann::ordered_json& json, const char* key) {
 
 }  // namespace
 
+const double* find_number(const NamedNumbers& numbers, const std::string& name) {
+  for (const auto& [key, value] : numbers)
+    if (key == name) return &value;
+  return nullptr;
+}
+
 std::string to_json(const RunRecord& record) {
   nlohmann::ordered_json json;
   json["scene"] = record.scene;
@@ -65,6 +71,7 @@ std::string to_json(const RunRecord& record) {
   json["particle_updates"] = record.particle_updates;
   json["neighbour_interactions"] = record.neighbour_interactions;
   json["peak_memory_bytes"] = record.peak_memory_bytes;
+  json["solver_memory_bytes"] = record.solver_memory_bytes;
   json["mass_error"] = record.mass_error;
   json["momentum_error"] = record.momentum_error;
   if (record.angular_momentum_error) json["angular_momentum_error"] = *record.angular_momentum_error;
@@ -105,6 +112,7 @@ RunRecord read_summary(const std::filesystem::path& path) {
   get(json, "particle_updates", record.particle_updates);
   get(json, "neighbour_interactions", record.neighbour_interactions);
   get(json, "peak_memory_bytes", record.peak_memory_bytes);
+  get(json, "solver_memory_bytes", record.solver_memory_bytes);
   record.mass_error = record.momentum_error = record.energy_error = nan;
   get(json, "mass_error", record.mass_error);
   get(json, "momentum_error", record.momentum_error);

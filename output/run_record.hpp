@@ -13,6 +13,9 @@ namespace undex::output {
 /// Named numbers in the order in which they are shown. NaN means "did not happen" and becomes null in JSON.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
+/// The number of that name, or null.
+const double* find_number(const NamedNumbers& numbers, const std::string& name);
+
 struct RunRecord {
   std::string scene;                          ///< its name
   std::string status;                         ///< "done", or why it ended: "stopped", "interrupted", ...
@@ -26,7 +29,8 @@ struct RunRecord {
   std::int64_t cells = 0;                     ///< of the structure's mesh
   std::int64_t particle_updates = 0;          ///< moving particles times steps of their solver
   std::int64_t neighbour_interactions = 0;    ///< true neighbours, directed, over all steps
-  std::int64_t peak_memory_bytes = 0;
+  std::int64_t peak_memory_bytes = 0;         ///< of the process, program and libraries included
+  std::int64_t solver_memory_bytes = 0;       ///< what the solvers hold of it at the end
   double mass_error = 0, momentum_error = 0, energy_error = 0;   ///< relative
   std::optional<double> angular_momentum_error;                  ///< relative; closed scenes of solids in particles only
   std::optional<double> interface_energy_error;                  ///< coupled runs only

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace undex::output {
 
@@ -24,5 +25,12 @@ std::size_t width(const std::string& text);
 /// Text that is wider than `columns` stays as it is.
 std::string padded_left(const std::string& text, std::size_t columns);
 std::string padded_right(const std::string& text, std::size_t columns);
+
+
+/// Lines of cells as text, columns aligned: the first `left` of them to the left, the others to the right, three blanks apart.
+std::string aligned(const std::vector<std::vector<std::string>>& lines, std::size_t left);
+
+/// A time as people say it: "12 s", "3 min 05 s", "2.4 h".
+std::string duration(double seconds);
 
 }  // namespace undex::output
