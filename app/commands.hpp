@@ -28,9 +28,20 @@ struct CompareArguments {
   bool force = false;
 };
 
+struct StudyArguments {
+  std::filesystem::path study;
+  std::string output;                  ///< empty: the study's own choice
+  std::vector<std::string> only;       ///< parts of names, or patterns with * and ?; empty: all runs
+  int jobs = 1;                        ///< runs at a time
+  bool list = false;                   ///< say what would be done, and do nothing
+  bool again = false;                  ///< also what is there
+  bool quiet = false;
+};
+
 int run_scene(const RunArguments& arguments);
 int check_scene(const SceneArguments& arguments);
 int compare_runs(const CompareArguments& arguments);
+int run_study(const StudyArguments& arguments);
 int print_materials();
 int list_scenes();
 int print_version(bool json);

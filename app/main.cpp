@@ -61,6 +61,24 @@ int dispatch(int argc, char** argv) {
   comparison->footer("Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
                      "how: docs/outputs.md");
 
+  StudyArguments study_arguments;
+  CLI::App* study = program.add_subcommand(
+      "study", "a grid of runs from one study file: errors, observed orders and cost in one table; goes on where it was ended");
+  study->add_option("study", study_arguments.study, "study file (.toml), or a folder with study.toml")->required();
+  study->add_option("-o,--output", study_arguments.output, "output folder; default: the study's, else out/study_<name>");
+  study->add_option("-j,--jobs", study_arguments.jobs, "runs at a time (each with the study's threads, by default one)")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  study->add_option("--only", study_arguments.only, "only runs whose name has this in it, or matches it (* and ?); may be repeated")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  study->add_flag("--list", study_arguments.list, "say which runs there are, which are there and which would be run; write nothing");
+  study->add_flag("--again", study_arguments.again, "run also what is there");
+  study->add_flag("-q,--quiet", study_arguments.quiet, "print nothing but errors");
+  study->footer("Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
+                "The study file: docs/studies.md");
+
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
@@ -75,6 +93,7 @@ int dispatch(int argc, char** argv) {
   if (*run) return run_scene(run_arguments);
   if (*check) return check_scene(check_arguments);
   if (*comparison) return compare_runs(compare_arguments);
+  if (*study) return run_study(study_arguments);
   if (*materials) return print_materials();
   if (*list) return list_scenes();
   if (*version) return print_version(json);

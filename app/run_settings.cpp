@@ -10,6 +10,7 @@ namespace undex::app {
 namespace {
 
 using scene::Entry;
+using scene::in_file_order;
 using scene::Node;
 
 void append(std::string& text, const char* separator, const std::string& part) {
@@ -40,16 +41,6 @@ std::string text_at(const Node& table, const char* key) {
 bool silent(const std::string& key) {
   static constexpr std::array keys{"title", "probes", "output", "comparison", "threads"};
   return std::find(keys.begin(), keys.end(), key) != keys.end() || key == "source" || key.ends_with(".source");
-}
-
-// The tree holds a table's entries by the alphabet.
-std::vector<const Entry*> in_file_order(const Node& table) {
-  std::vector<const Entry*> entries;
-  for (const Entry& entry : table.entries) entries.push_back(&entry);
-  std::sort(entries.begin(), entries.end(), [](const Entry* a, const Entry* b) {
-    return std::pair(a->where.line, a->where.column) < std::pair(b->where.line, b->where.column);
-  });
-  return entries;
 }
 
 void flatten(const Node& node, const std::string& path, output::RunSettings& settings) {

@@ -1,7 +1,11 @@
 #include "scene/document.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <utility>
+
+#include "scene/numbers.hpp"
 
 // The parser's own assertions fail on some damaged files: a mistake of the file, not of this program.
 #define TOML_ASSERT(condition) static_cast<void>((condition) || (throw std::domain_error("unexpected characters"), false))
@@ -70,6 +74,53 @@ std::string Node::described() const {
     case Kind::other: break;
   }
   return "a date or time";
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      const char* digits = "0123456789abcdef";
+      result += "\\u00";
+      result += digits[code >> 4];
+      result += digits[code & 15];
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::vector<const Entry*> in_file_order(const Node& table) {
+  std::vector<const Entry*> entries;
+  for (const Entry& entry : table.entries) entries.push_back(&entry);
+  std::sort(entries.begin(), entries.end(), [](const Entry* a, const Entry* b) {
+    return std::pair(a->where.line, a->where.column) < std::pair(b->where.line, b->where.column);
+  });
+  return entries;
+}
+
+std::string toml_value(const Node& node) {
+  std::string text;
+  const auto append = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  switch (node.kind) {
+    case Node::Kind::boolean: return node.boolean ? "true" : "false";
+    case Node::Kind::integer: return std::to_string(node.integer);
+    case Node::Kind::number: return shortest(node.number);
+    case Node::Kind::text: return quoted(node.text);
+    case Node::Kind::array:
+      for (const Node& item : node.items) append(toml_value(item));
+      return '[' + text + ']';
+    case Node::Kind::table:
+      for (const Entry* entry : in_file_order(node)) append(quoted(entry->key) + " = " + toml_value(entry->node));
+      return '{' + text + '}';
+    case Node::Kind::other: break;
+  }
+  return "";
 }
 
 Node parse_toml(std::string_view text, const std::string& file) {

@@ -37,6 +37,15 @@ struct Entry {
   Node node;
 };
 
+/// A table's entries as they were written: the tree holds them by the alphabet.
+std::vector<const Entry*> in_file_order(const Node& table);
+
+/// Text in quotes, as TOML wants it.
+std::string quoted(const std::string& text);
+
+/// The value as TOML on one line. Dates and times, which nothing here has, are empty.
+std::string toml_value(const Node& node);
+
 /// Parses TOML. Throws SceneError with the place of a syntax error.
 Node parse_toml(std::string_view text, const std::string& file);
 

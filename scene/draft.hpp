@@ -29,6 +29,13 @@ struct Draft {
   bool structure_shape_good = false;
 };
 
+/// The file itself, or the one of the usual name in a folder. Throws FileError, which ends in the hint, where there is none.
+std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name, const std::string& hint);
+/// Throws FileError.
+std::string file_text(const std::filesystem::path& file);
+/// The folder of a file of the usual name, else the file without its ending; only what a name may hold.
+std::string name_of(const std::filesystem::path& file, const char* usual_name);
+
 void read_fluid(Draft& draft);        // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
 void read_solids(Draft& draft);       // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
 void read_structure(Draft& draft);    // read_structure.cpp: [structure], [coupling]

@@ -13,35 +13,6 @@
 namespace undex::scene {
 namespace {
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream) throw FileError(file.string() + ": cannot be read; check that it exists and that you may read it");
-  return text.str();
-}
-
-std::filesystem::path scene_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    if (!std::filesystem::is_regular_file(path / "case.toml", ignored))
-      throw FileError(path.string() + ": the folder holds no case.toml; name a scene file or a folder with one");
-    return path / "case.toml";
-  }
-  if (!std::filesystem::exists(path, ignored))
-    throw FileError(path.string() + ": no such scene; name a .toml file or a folder with case.toml ('undex list' shows the scenes shipped)");
-  return path;
-}
-
-/// The folder of a case.toml, else the file without its ending; only what a name may hold.
-std::string name_of(const std::filesystem::path& file) {
-  const std::filesystem::path full = std::filesystem::absolute(file).lexically_normal();
-  std::string name = full.filename() == "case.toml" ? full.parent_path().filename().string() : full.stem().string();
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  return name.empty() ? "scene" : name.substr(0, 100);
-}
-
 void read_top(Draft& draft) {
   Scene& scene = draft.scene;
   {
@@ -72,6 +43,35 @@ std::vector<Finding> without_repetitions(const std::vector<Finding>& findings) {
 
 }  // namespace
 
+std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name, const std::string& hint) {
+  const std::string a_kind = std::string("a ") + kind, in_folder = std::string("a folder with ") + usual_name;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    if (!std::filesystem::is_regular_file(path / usual_name, ignored))
+      throw FileError(path.string() + ": the folder holds no " + usual_name + "; name " + a_kind + " file or a folder with one");
+    return path / usual_name;
+  }
+  if (!std::filesystem::exists(path, ignored))
+    throw FileError(path.string() + ": no such " + kind + "; name a .toml file or " + in_folder + hint);
+  return path;
+}
+
+std::string file_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream) text << stream.rdbuf();
+  if (!stream) throw FileError(file.string() + ": cannot be read; check that it exists and that you may read it");
+  return text.str();
+}
+
+std::string name_of(const std::filesystem::path& file, const char* usual_name) {
+  const std::filesystem::path full = std::filesystem::absolute(file).lexically_normal();
+  std::string name = full.filename() == usual_name ? full.parent_path().filename().string() : full.stem().string();
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name.empty() ? "scene" : name.substr(0, 100);
+}
+
 std::string element_path(const char* list, const Node& element, std::size_t index) {
   const Node* name = element.find("name");
   const bool named = name && name->kind == Node::Kind::text && !name->text.empty() && name->text.size() <= 100;
@@ -79,11 +79,11 @@ std::string element_path(const char* list, const Node& element, std::size_t inde
 }
 
 Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides) {
-  const std::filesystem::path file = scene_file(path);
+  const std::filesystem::path file = found_file(path, "scene", "case.toml", " ('undex list' shows the scenes shipped)");
   Draft draft;
-  draft.root = parse_toml(read_text(file), file.string());
+  draft.root = parse_toml(file_text(file), file.string());
   draft.scene.file = file;
-  draft.scene.name = name_of(file);
+  draft.scene.name = name_of(file, "case.toml");
   apply(overrides, draft.root, draft.report);
   read_top(draft);
   read_own_materials(draft);

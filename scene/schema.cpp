@@ -154,9 +154,22 @@ const std::vector<Section>& schema() {
   return sections;
 }
 
+const std::vector<Section>& study_schema() {
+  static const std::vector<Section> sections{
+      {"study",
+       {word("title"), word("scene"), word("scenes"), word("output"), word("settings"), word("axes"), word("exclude"), word("resolution"),
+        word("errors"), between("repeats", 1, 100), between("threads", 1, 4096), above("cpu_limit", 0, 1e8, "s"),
+        above("wall_limit", 0, 1e8, "s")}},
+      {"study.axes", {word("name"), word("key"), word("values"), word("labels"), word("variants"), word("problem")}},
+      {"study.errors", {word("metric"), word("source"), word("label")}},
+  };
+  return sections;
+}
+
 const Section& section(std::string_view name) {
-  for (const Section& each : schema())
-    if (each.name == name) return each;
+  for (const std::vector<Section>* sections : {&schema(), &study_schema()})
+    for (const Section& each : *sections)
+      if (each.name == name) return each;
   assert(!"no such section in the schema");
   return schema().front();
 }

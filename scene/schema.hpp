@@ -26,8 +26,11 @@ struct Section {
 
 const std::vector<Section>& schema();
 
-/// The section of that name; it must exist.
+/// The section of that name, of a scene or of a study; it must exist.
 const Section& section(std::string_view name);
+
+/// The same of a study file (docs/studies.md): "study" is its top.
+const std::vector<Section>& study_schema();
 
 /// "greater than 0", "from 0 to 1", "at least 0".
 std::string range_in_words(const Key& key);

@@ -31,7 +31,7 @@ void report_unknown_keys(const Node& node, const std::string& path, const Sectio
     const std::vector<std::string> names = known.key_names();
     std::string remedy;
     if (const std::string near = nearest(entry.key, names); !near.empty()) remedy = "did you mean '" + near + "'?";
-    else if (const std::string home = home_of(entry.key); !home.empty()) remedy = "it belongs to " + home;
+    else if (const std::string home = known.name.starts_with("study") ? "" : home_of(entry.key); !home.empty()) remedy = "it belongs to " + home;
     else remedy = "known: " + listed(names);
     report.add(entry, "unknown key '" + entry.key + "' " + table_name(path) + "; " + remedy);
   }

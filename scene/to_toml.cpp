@@ -2,6 +2,7 @@
 #include <cassert>
 #include <type_traits>
 
+#include "scene/document.hpp"
 #include "scene/material_fields.hpp"
 #include "scene/numbers.hpp"
 #include "scene/scene.hpp"
@@ -11,25 +12,6 @@ namespace undex::scene {
 namespace {
 
 using namespace materials;
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      const char* digits = "0123456789abcdef";
-      result += "\\u00";
-      result += digits[code >> 4];
-      result += digits[code & 15];
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
 
 std::string number(double value) {
   std::string text = shortest(value);

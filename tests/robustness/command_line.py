@@ -505,6 +505,306 @@ class Compare(Case):
         self.ends(runs.call(*plot, self.here / "coarse"), 2, "comparison.csv: missing; give the folder that undex compare")
 
 
+class Study(Case):
+    """undex study, on runs of a tenth of a second."""
+
+    TEXT = """title = "Gas"
+scene = "SCENE"
+errors = ["energy_error"]
+[settings]
+end_time = 0.02
+output.field_times = []
+[[axes]]
+name = "spacing"
+key = "resolution.spacing"
+values = [0.02, 0.01]
+[[axes]]
+name = "scheme"
+[axes.variants.riemann]
+[axes.variants.monaghan]
+scheme.name = "monaghan"
+"""
+    NAMES = ["spacing_0.02__riemann", "spacing_0.02__monaghan", "spacing_0.01__riemann", "spacing_0.01__monaghan"]
+
+    def study(self, text=TEXT, scene="sjogreen", name="gas.toml"):
+        return self.scene(text.replace("SCENE", str(CASES / scene)), name)
+
+    def rows(self, folder="out/study_gas"):
+        with open(self.here / folder / "study.csv", newline="") as file:
+            return {row["run"]: row for row in csv.DictReader(file)}
+
+    def written(self):
+        """When each run's summary was written."""
+        return {path.parent.name: path.stat().st_mtime_ns for path in (self.here / "out/study_gas/runs").glob("*/summary.json")}
+
+    def runs_only(self, *expected):
+        """The study runs; what it computes is just these runs."""
+        before = self.written()
+        finished = self.undex("study", "gas.toml")
+        self.ends(finished, 0)
+        after = self.written()
+        self.assertEqual({name for name in after if after[name] != before.get(name)}, set(expected), finished.stdout)
+        return finished
+
+    def test_grid(self):
+        self.study()
+        before = contents(self.here)
+        finished = self.undex("study", "gas.toml", "--list")
+        self.ends(finished, 0)
+        self.assertIn("0 there, 4 to run (4 not there)", finished.stdout)
+        self.assertEqual(contents(self.here), before)
+        finished = self.runs_only(*self.NAMES)
+        self.assertRegex(finished.stdout, r"(?m)^\[4/4\] spacing_0.01__monaghan: done, [\d.]+ s CPU, energy_error [\d.e-]+$")
+        self.assertRegex(finished.stdout, r"(?m)^0.01 +riemann +done +[\d.e-]+[* ] ")
+        rows = self.rows()
+        self.assertEqual(list(rows), self.NAMES)
+        for name, row in rows.items():
+            record = runs.summary(self.here / "out/study_gas/runs" / name)
+            self.assertEqual((row["status"], row["particles"], row["steps"]), ("done", str(record["particles"]), str(record["steps"])))
+            self.assertAlmostEqual(float(row["error: energy_error"]) / abs(record["energy_error"]), 1, places=7)
+            self.assertAlmostEqual(float(row["cpu_time_s"]) / record["cpu_time_s"], 1, places=7)
+            self.assertEqual(row["scheme"], name.split("__")[1])
+            self.assertEqual(record["threads"], 1)
+        self.assertEqual(rows["spacing_0.01__riemann"]["particles"], "100")
+        with open(self.here / "out/study_gas/order.csv", newline="") as file:
+            orders = list(csv.DictReader(file))
+        self.assertEqual([(row["curve"], row["kind"]) for row in orders],
+                         [(curve, kind) for curve in ("riemann", "monaghan") for kind in ("between", "least squares")])
+        self.assertIn("1", {row["pareto: energy_error"] for row in rows.values()})
+        # The command in a run's log does the same by hand.
+        command = (self.here / "out/study_gas/runs/spacing_0.01__monaghan/log.txt").read_text().splitlines()[0]
+        self.assertTrue(command.startswith("undex run "))
+        again = command.replace("undex", str(PROGRAM), 1).replace("-o out/study_gas/runs/spacing_0.01__monaghan", "-o by_hand")
+        self.assertEqual(subprocess.run(["sh", "-c", again], cwd=self.here).returncode, 0)
+        self.assertEqual(runs.differences(self.here / "by_hand", self.here / "out/study_gas/runs/spacing_0.01__monaghan"), [])
+
+    def test_going_on(self):
+        self.study()
+        self.runs_only(*self.NAMES)
+        finished = self.runs_only()
+        self.assertIn("4 there, 0 to run", finished.stdout)
+        self.study(self.TEXT.replace('"Gas"', '"Better title"'))
+        self.runs_only()
+        folder = self.here / "out/study_gas/runs"
+        (folder / self.NAMES[0] / "summary.json").unlink()                       # killed
+        (folder / self.NAMES[1] / "summary.json").write_text('{"status": "do')   # damaged
+        (folder / self.NAMES[2] / "resolved.toml").unlink()                      # killed before it began
+        finished = self.undex("study", "gas.toml", "--list")
+        self.assertRegex(finished.stdout, rf"(?m)^  {self.NAMES[0]} +to run +half-finished$")
+        self.assertRegex(finished.stdout, rf"(?m)^  {self.NAMES[1]} +to run +damaged: ")
+        self.runs_only(*self.NAMES[:3])
+        # Another value: only its runs; the old one's stay and are named.
+        self.study(self.TEXT.replace("0.02, 0.01]", "0.02, 0.008]"))
+        finished = self.runs_only("spacing_0.008__riemann", "spacing_0.008__monaghan")
+        self.assertIn("2 folders of runs that the study no longer has: out/study_gas/runs/spacing_0.01__monaghan", finished.stdout)
+        self.study()
+        self.runs_only()
+        # Another setting of one variant.
+        self.study(self.TEXT + "scheme.beta = 3\n")
+        finished = self.undex("study", "gas.toml", "--list")
+        self.assertRegex(finished.stdout, r"(?m)^  spacing_0.01__monaghan +to run +changed: scheme.beta$")
+        self.runs_only(self.NAMES[1], self.NAMES[3])
+        # An axis more and another label: the same runs under other names.
+        text = (self.TEXT + 'scheme.beta = 3\n[[axes]]\nname = "kernel"\nkey = "scheme.kernel"\nvalues = ["wendland_c2"]\n')
+        self.study(text.replace("riemann", "default"))
+        finished = self.undex("study", "gas.toml")
+        self.assertIn("4 there, 0 to run", finished.stdout)
+        self.assertEqual(self.rows()["spacing_0.01__default__wendland_c2"]["status"], "done")
+        self.assertTrue((folder / "spacing_0.01__default__wendland_c2/summary.json").exists())
+        self.assertFalse((folder / "spacing_0.01__riemann").exists())
+        # All again.
+        before = self.written()
+        self.ends(self.undex("study", "gas.toml", "--again", "--only", "default"), 0)
+        after = self.written()
+        self.assertEqual({name for name in after if after[name] != before[name]}, {name for name in after if "default" in name})
+
+    def test_only(self):
+        self.study()
+        finished = self.undex("study", "gas.toml", "--only", "*monaghan", "--only", "0.02__r")
+        self.ends(finished, 0)
+        self.assertEqual({name: row["status"] for name, row in self.rows().items()},
+                         dict(zip(self.NAMES, ("done", "done", "not run", "done"))))
+        self.assertIn("1 more not run yet", finished.stdout)
+        self.ends(self.undex("study", "gas.toml", "--only", "gaussian"), 2, "--only: no run of the study matches; names are such as spacing_0.02")
+
+    def test_repetitions(self):
+        self.study("repeats = 3\n" + self.TEXT)
+        self.ends(self.undex("study", "gas.toml", "--only", self.NAMES[0]), 0)
+        row = self.rows()[self.NAMES[0]]
+        self.assertEqual(row["timings"], "3")
+        self.assertLessEqual(float(row["cpu_time_s"]), float(row["cpu_time_largest_s"]))
+        folder = self.here / "out/study_gas/runs" / self.NAMES[0]
+        times = json.loads((folder / "outcome.json").read_text())["cpu_times_s"]
+        self.assertEqual((len(times), f"{min(times):.9g}"), (3, row["cpu_time_s"]))
+        self.assertFalse((folder / "repetition").exists())
+        first = self.written()[self.NAMES[0]]
+        self.study("repeats = 4\n" + self.TEXT)
+        self.ends(self.undex("study", "gas.toml", "--only", self.NAMES[0]), 0)
+        self.assertEqual((self.rows()[self.NAMES[0]]["timings"], self.written()[self.NAMES[0]]), ("4", first))
+
+    def test_run_that_the_numerics_stop(self):
+        self.study(self.TEXT + "bodies.left.velocity = 1e9\n")
+        finished = self.undex("study", "gas.toml")
+        self.ends(finished, 0)
+        rows = self.rows()
+        self.assertEqual([row["status"] for row in rows.values()], ["done", "stopped", "done", "stopped"])
+        self.assertRegex(rows[self.NAMES[1]]["message"], r"step \d+, time")
+        self.assertEqual(rows[self.NAMES[1]]["error: energy_error"], "")
+        self.assertEqual(rows[self.NAMES[1]]["pareto: energy_error"], "")
+        self.assertRegex(finished.stdout, rf"(?m)^{self.NAMES[1]}, stopped: step")
+        self.runs_only()
+
+    def test_run_that_is_refused(self):
+        """What only the set-up finds does not end the study, and is tried again."""
+        text = """scene = "SCENE"
+[settings]
+end_time = 1e-6
+resolution.spacing = 0.01
+output.field_times = []
+[[axes]]
+name = "start"
+[axes.variants.plain]
+start.kind = "plain"
+[axes.variants.late]
+start = {kind = "spherical", time = 1e-3}
+"""
+        self.study(text, "rigid_cylinder")
+        finished = self.undex("study", "gas.toml")
+        self.ends_with_failure(finished, "late, refused: .*start.kind")
+        self.assertEqual([row["status"] for row in self.rows().values()], ["done", "refused"])
+        self.assertIn("1 there, 1 to run (1 refused before)", self.undex("study", "gas.toml", "--list").stdout)
+
+    def ends_with_failure(self, finished, pattern):
+        self.assertEqual(finished.returncode, 1, finished.stdout + finished.stderr)
+        self.assertRegex(finished.stdout, pattern)
+
+    def test_run_that_is_killed(self):
+        """A crash is a row too; what the machine did is tried again."""
+        self.study(self.LONG)
+        with self.started() as process:
+            pid = self.child_of(process)
+            os.kill(pid, signal.SIGSEGV)
+            process.stdout.read()
+            self.assertEqual(process.wait(timeout=60), 1)
+        self.assertRegex(self.rows()["long"]["message"], "killed by signal 11")
+        self.assertEqual((self.rows()["short"]["status"], self.rows()["long"]["status"]), ("done", "failed"))
+
+    # A short run and one of many seconds.
+    LONG = """scene = "SCENE"
+[settings]
+output.field_times = []
+[[axes]]
+name = "length"
+[axes.variants.short]
+end_time = 0.001
+[axes.variants.long]
+resolution.spacing = 0.0002
+"""
+
+    def started(self, *arguments):
+        """The study, as far as the long run."""
+        process = subprocess.Popen([PROGRAM, "study", "gas.toml", *arguments], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, env=runs.ENVIRONMENT)
+        for _ in range(1200):
+            if (self.here / "out/study_gas/runs/long/energy.csv").exists():
+                return process
+            time.sleep(0.05)
+        raise AssertionError("the long run did not start")
+
+    @staticmethod
+    def child_of(process):
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        assert len(children) == 1, children
+        return int(children[0])
+
+    def signalled(self, number, code):
+        self.study(self.LONG)
+        with self.started() as process:
+            self.ends(self.undex("study", "gas.toml"), 2, "another undex study is at work in out/study_gas")
+            process.send_signal(number)
+            said = process.stdout.read()
+            self.assertEqual(process.wait(timeout=60), code)
+        self.assertIn("the same command goes on where this one ended", said)
+        self.assertEqual([row["status"] for row in self.rows().values()], ["done", "interrupted"])
+        self.assertEqual(runs.summary(self.here / "out/study_gas/runs/long")["status"], "interrupted")
+        self.assertIn("1 there, 1 to run (1 half-finished)", self.undex("study", "gas.toml", "--list").stdout)
+
+    def test_interrupt(self):
+        self.signalled(signal.SIGINT, 130)
+
+    def test_terminate(self):
+        self.signalled(signal.SIGTERM, 143)
+
+    def test_study_that_is_killed(self):
+        """Its run does not stay behind, and what had ended counts."""
+        self.study(self.LONG)
+        with self.started() as process:
+            pid = self.child_of(process)
+            process.kill()
+            process.wait(timeout=60)
+        for _ in range(600):
+            if not pathlib.Path(f"/proc/{pid}").exists() or "(zombie)" in pathlib.Path(f"/proc/{pid}/status").read_text():
+                break
+            time.sleep(0.05)
+        else:
+            self.fail("the run goes on without its study")
+        self.assertIn("1 there, 1 to run (1 half-finished)", self.undex("study", "gas.toml", "--list").stdout)
+
+    def test_limit(self):
+        self.study("cpu_limit = 0.7\n" + self.LONG)
+        self.ends(self.undex("study", "gas.toml"), 0)
+        row = self.rows()["long"]
+        self.assertEqual((row["status"], row["message"]), ("limit", "ended at cpu_limit = 0.7 s"))
+        self.assertGreater(float(row["cpu_time_s"]), 0.2)
+        self.assertIn("2 there, 0 to run", self.undex("study", "gas.toml", "--list").stdout)
+        self.study("cpu_limit = 0.9\n" + self.LONG)
+        self.assertIn("the limit that ended it has been raised", self.undex("study", "gas.toml", "--list").stdout)
+
+    def test_missing_metric(self):
+        self.study(self.TEXT.replace('["energy_error"]', '["l1_pressure", "energy_eror"]'))
+        finished = self.undex("study", "gas.toml", "--only", self.NAMES[0])
+        self.ends(finished, 0)
+        self.assertEqual(len(re.findall("(?m)^note: ", finished.stdout)), 1, finished.stdout)
+        self.assertIn("note: no run has the metric l1_pressure, energy_eror; the scene has no [comparison]", finished.stdout)
+
+    def test_mistakes(self):
+        self.study("repeat = 3\n" + self.TEXT.replace("resolution.spacing", "resolution.spacng"))
+        before = contents(self.here)
+        for arguments in ([], ["--list"]):
+            self.ends(self.undex("study", "gas.toml", *arguments), 2, r"gas.toml:1:1: unknown key 'repeat'.*did you mean 'repeats'",
+                      r"gas.toml:10:7: resolution.spacng: unknown key 'spacng'.*did you mean 'spacing'")
+        self.study(self.TEXT.replace('["energy_error"]', '[{metric = "first_peak_pa", source = "converged"}]'))
+        self.ends(self.undex("study", "gas.toml"), 2, "gas.toml:3:11: errors: .* needs the scene's comparison.reference")
+        self.study('errors = [{metric = "first_peak", source = "converged"}, {metric = "collapse_s", source = "convergd"}]\nscene = "SCENE"\n',
+                   "rigid_cylinder")
+        self.ends(self.undex("study", "gas.toml"), 2, r"gas.toml:1:11: .*no metric 'first_peak'; did you mean 'first_peak_pa'",
+                  r"gas.toml:1:58: .*no source 'convergd'; did you mean 'converged'")
+        self.ends(self.undex("study", "none.toml"), 1, "none.toml: no such study")
+        self.ends(self.undex("study", "gas.toml", "-j", "0"), 2)
+        self.study()
+        self.assertEqual(contents(self.here).keys(), before.keys())
+        (self.here / "thesis").mkdir()
+        (self.here / "thesis/chapter.txt").write_text("my only copy")
+        self.ends(self.undex("study", "gas.toml", "-o", "thesis"), 2, "thesis holds something that is no study")
+        self.assertEqual([path.name for path in (self.here / "thesis").iterdir()], ["chapter.txt"])
+        (self.here / "out/study_gas/runs" / self.NAMES[0]).mkdir(parents=True)
+        (self.here / "out/study_gas/study.toml").write_text("")
+        (self.here / "out/study_gas/runs" / self.NAMES[0] / "chapter.txt").write_text("my only copy")
+        self.ends(self.undex("study", "gas.toml"), 2, "is in the way")
+        self.assertEqual((self.here / "out/study_gas/runs" / self.NAMES[0] / "chapter.txt").read_text(), "my only copy")
+
+    def test_pictures(self):
+        if runs.call(sys.executable, "-c", "import numpy, matplotlib").returncode != 0:
+            self.skipTest("no Matplotlib")
+        plot = [sys.executable, CASES.parent / "scripts" / "plot_study.py"]
+        self.study()
+        self.runs_only(*self.NAMES)
+        self.ends(runs.call(*plot, self.here / "out/study_gas"), 0)
+        self.assertEqual({path.stem for path in (self.here / "out/study_gas/pictures").iterdir()},
+                         {"cost_energy_error", "order_energy_error", "conservation", "overview"})
+        self.ends(runs.call(*plot, self.here), 2, "study.json: missing; give the folder that undex study wrote")
+
+
 class Telling(Case):
     """Commands that only say something."""
 
@@ -568,7 +868,7 @@ class Telling(Case):
         self.assertTrue(self.undex("version").stdout.startswith(f"undex {version['version']}"))
 
     def test_help(self):
-        for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["compare", "--help"]):
+        for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["compare", "--help"], ["study", "--help"]):
             finished = self.undex(*arguments)
             self.ends(finished, 0)
             self.assertIn("Usage", finished.stdout)

@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "scene/scene.hpp"
+#include "scene/study.hpp"
 
 namespace {
 
@@ -153,6 +154,36 @@ TEST_F(SceneMutations, WildOverrides) {
     for (std::size_t k = 0, count = below(4); k < count; ++k) path += '.' + words[below(words.size())];
     survives(any_scene(), {{path, values[below(values.size())]}});
   }
+}
+
+/// Studies are read, or refused with SceneError, whatever is done to them; each read is one of many scenes.
+TEST_F(SceneMutations, StudiesDamaged) {
+  const std::string sound = text_of(fs::path(UNDEX_ROOT) / "cases/sjogreen/study.toml");
+  fs::copy_file(fs::path(UNDEX_ROOT) / "cases/sjogreen/case.toml", folder_ / "case.toml", fs::copy_options::overwrite_existing);
+  const auto survives_as_study = [&](const std::string& text) {
+    std::ofstream(folder_ / "study.toml", std::ios::binary) << text;
+    try {
+      EXPECT_FALSE(scene::read_study(folder_).runs.empty());
+      ++good_;
+    } catch (const SceneError& error) {
+      ++refused_;
+      EXPECT_FALSE(error.findings().empty());
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << "threw " << error.what() << " on\n" << text;
+    }
+  };
+  survives_as_study(sound);
+  EXPECT_EQ(good_, 1);
+  const std::string marks = "[]{}=\".,#\n x1-";
+  for (int i = 0; i < tries() / 4; ++i) {
+    std::string text = sound;
+    for (std::size_t k = 0, count = 1 + below(4); k < count; ++k) text[below(text.size())] = marks[below(marks.size())];
+    survives_as_study(text);
+    const std::size_t from = below(sound.size());
+    survives_as_study(sound.substr(0, from) + sound.substr(std::min(sound.size(), from + below(60))));
+  }
+  for (const char* text : {"", "axes = 3", "[[axes]]\n[[axes]]", "exclude = 1", "scenes = 7", "[axes]\nname = 1", "settings = []", "errors = {}"})
+    survives_as_study(text);
 }
 
 TEST_F(SceneMutations, DeepAndEmpty) {
