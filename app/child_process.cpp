@@ -41,7 +41,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   const int error = errno;
   close(output);
   if (input >= 0) close(input);
-  if (process_ < 0) throw FileError(std::string("cannot start another process: ") + std::strerror(error) + "; end some, or raise ulimit -u");
+  if (process_ < 0)
+    throw FileError(std::string("cannot start another process: ") + std::strerror(error) + "; end some, or raise ulimit -u");
 }
 
 std::optional<ChildProcess::End> ChildProcess::ended() {

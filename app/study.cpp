@@ -52,7 +52,8 @@ class Lock {
     if (file_ < 0) output::throw_file_error("write", folder / ".lock", errno);
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       close(file_);
-      throw UsageError("another undex study is at work in " + folder.string() + "; wait for it, or choose another folder with -o");
+      throw UsageError("another undex study is at work in " + folder.string() +
+                       "; wait for it, or choose another folder with -o");
     }
   }
   ~Lock() { close(file_); }
@@ -73,8 +74,9 @@ References read_references(const scene::Study& study) {
     if (error.source.empty()) continue;
     for (const scene::StudyRun& run : study.runs) {
       if (run.reference.empty()) {
-        findings.push_back({error.where, "errors: '" + error.label + "' needs the scene's comparison.reference, and the scene of run " +
-                                             run.name + " has none"});
+        findings.push_back({error.where, "errors: '" + error.label +
+                                             "' needs the scene's comparison.reference, and the scene of run " + run.name +
+                                             " has none"});
         break;
       }
       const auto [table, fresh] = tables.try_emplace(run.reference);
@@ -84,12 +86,17 @@ References read_references(const scene::Study& study) {
       for (const auto& row : table->second.rows) metrics.push_back(row.metric);
       const std::string file = run.reference.string();
       if (const auto source = std::find(sources.begin(), sources.end(), error.source); source == sources.end())
-        findings.push_back({error.where, "errors: " + file + " has no source '" + error.source + "'" + scene::suggestion(error.source, sources)});
+        findings.push_back({error.where, "errors: " + file + " has no source '" + error.source + "'" +
+                                             scene::suggestion(error.source, sources)});
       else if (const auto metric = std::find(metrics.begin(), metrics.end(), error.metric); metric == metrics.end())
-        findings.push_back({error.where, "errors: " + file + " has no metric '" + error.metric + "'" + scene::suggestion(error.metric, metrics)});
-      else if (const double value = table->second.rows[std::size_t(metric - metrics.begin())].values[std::size_t(source - sources.begin())].value;
+        findings.push_back({error.where, "errors: " + file + " has no metric '" + error.metric + "'" +
+                                             scene::suggestion(error.metric, metrics)});
+      else if (const double value = table->second.rows[std::size_t(metric - metrics.begin())]
+                                        .values[std::size_t(source - sources.begin())]
+                                        .value;
                std::isnan(value) || value == 0)
-        findings.push_back({error.where, "errors: source '" + error.source + "' of " + file + " has no value of " + error.metric});
+        findings.push_back(
+            {error.where, "errors: source '" + error.source + "' of " + file + " has no value of " + error.metric});
       else
         continue;
       break;
@@ -112,16 +119,18 @@ StudyRow row_of(const scene::Study& study, const scene::StudyRun& run, const Run
   }
   if (row.curve.empty()) row.curve = study.name;
   // Results of other settings are not this run's.
-  const bool known = state.finished || state.status == "failed" || state.status == "refused" || state.status == "interrupted" ||
-                     state.status == "limit";
+  const bool known = state.finished || state.status == "failed" || state.status == "refused" ||
+                     state.status == "interrupted" || state.status == "limit";
   row.status = known ? state.status : "not run";
   row.message = known ? state.message : state.reason == "not there" ? "" : state.reason;
   row.record = state.record;
   row.cpu_times = state.cpu_times;
   row.wall_times = state.wall_times;
   const auto reference = references.find(run.reference);
-  row.errors = state.status == "done" ? study_errors(study, state.record, reference == references.end() ? std::nullopt : std::optional(reference->second))
-                                      : std::vector<double>(study.errors.size(), nan);
+  row.errors = state.status == "done"
+                   ? study_errors(study, state.record,
+                                  reference == references.end() ? std::nullopt : std::optional(reference->second))
+                   : std::vector<double>(study.errors.size(), nan);
   return row;
 }
 
@@ -140,7 +149,8 @@ std::string quoted_for_shell(const std::string& text) {
 
 std::vector<std::string> run_arguments(const scene::StudyRun& run, const fs::path& folder) {
   std::vector<std::string> arguments{"run", run.scene.string(), "-o", folder.string(), "-q", "--force"};
-  for (const scene::Override& setting : run.settings) arguments.insert(arguments.end(), {"-P", setting.key + "=" + setting.value});
+  for (const scene::Override& setting : run.settings)
+    arguments.insert(arguments.end(), {"-P", setting.key + "=" + setting.value});
   return arguments;
 }
 
@@ -159,7 +169,8 @@ class Work {
  public:
   Work(const scene::Study& study, const References& references, const fs::path& folder, bool quiet)
       : study_(study), references_(references), folder_(folder), states_(run_states(study, folder / "runs")), quiet_(quiet) {
-    for (std::size_t r = 0; r < study.runs.size(); ++r) rows_.push_back(row_of(study, study.runs[r], states_[r], references));
+    for (std::size_t r = 0; r < study.runs.size(); ++r)
+      rows_.push_back(row_of(study, study.runs[r], states_[r], references));
   }
 
   const std::vector<RunState>& states() const { return states_; }
@@ -186,7 +197,8 @@ class Work {
       if (states_[r].folder == own) continue;
       std::error_code error;
       fs::rename(states_[r].folder, own, error);
-      if (error) throw FileError(own.string() + ": " + states_[r].folder.string() + " cannot be renamed to it: " + error.message());
+      if (error)
+        throw FileError(own.string() + ": " + states_[r].folder.string() + " cannot be renamed to it: " + error.message());
       states_[r].folder = own;
     }
   }
@@ -336,7 +348,8 @@ class Work {
         state.message = "the scene file was changed while the study ran; start the study again";
       }
     }
-    if (job.repetition) output::write_outcome(state.folder / "outcome.json", {state.status, state.message, state.cpu_times, state.wall_times});
+    if (job.repetition)
+      output::write_outcome(state.folder / "outcome.json", {state.status, state.message, state.cpu_times, state.wall_times});
     rows_[job.run] = row_of(study_, run, state, references_);
     return signals == 0 && state.status == "done" && state.cpu_times.size() < std::size_t(study_.repeats);
   }
@@ -386,7 +399,8 @@ std::string axes_text(const scene::Study& study) {
 
 /// Errors that runs do not have though they are done: one note.
 std::string missing_metrics(const scene::Study& study, const output::StudyTable& table) {
-  std::vector<std::string> names{"mass_error", "momentum_error", "energy_error", "interface_energy_error", "interface_impulse_error"};
+  std::vector<std::string> names{"mass_error", "momentum_error", "energy_error", "interface_energy_error",
+                                 "interface_impulse_error"};
   const std::size_t ledgers = names.size();
   std::size_t done = 0;
   for (const StudyRow& row : table.rows) {
@@ -403,11 +417,13 @@ std::string missing_metrics(const scene::Study& study, const output::StudyTable&
     if (std::find(names.begin(), names.end(), metric) == names.end())
       nowhere += (nowhere.empty() ? "" : ", ") + metric + (names.size() > ledgers ? scene::suggestion(metric, names) : "");
     else if (!missing.empty())
-      some += "note: " + study.errors[e].label + " is blank in " + std::to_string(missing.size()) + " of " + std::to_string(done) +
-              " runs, which have not come to it: " + missing[0] + (missing.size() > 1 ? ", ..." : "") + "\n";
+      some += "note: " + study.errors[e].label + " is blank in " + std::to_string(missing.size()) + " of " +
+              std::to_string(done) + " runs, which have not come to it: " + missing[0] +
+              (missing.size() > 1 ? ", ..." : "") + "\n";
   }
   if (!nowhere.empty())
-    nowhere = "note: no run has the metric " + nowhere + (names.size() > ledgers ? "" : "; the scene has no [comparison] that gives any") + "\n";
+    nowhere = "note: no run has the metric " + nowhere +
+              (names.size() > ledgers ? "" : "; the scene has no [comparison] that gives any") + "\n";
   return nowhere + some;
 }
 
@@ -434,8 +450,10 @@ int run_study(const StudyArguments& arguments) {
   const fs::path folder = arguments.output.empty() ? study.output : fs::path(arguments.output);
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::exists(folder / "study.toml", ignored)) {
-    if (!fs::is_directory(folder, ignored)) throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
-    if (!fs::is_empty(folder, ignored)) throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
+    if (!fs::is_directory(folder, ignored))
+      throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
+    if (!fs::is_empty(folder, ignored))
+      throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
   }
   std::unique_ptr<Lock> lock;
   if (!arguments.list) {
@@ -467,8 +485,8 @@ int run_study(const StudyArguments& arguments) {
     names.resize(std::min<std::size_t>(names.size(), 10));
     throw UsageError("--only: no run of the study matches; names are such as " + scene::listed(names));
   }
-  std::string text = study.name + ": " + study.title + "\n" + count_of(study.runs.size(), "run") + " in " + (folder / "runs").string() +
-                     ": " + axes_text(study) + "\n";
+  std::string text = study.name + ": " + study.title + "\n" + count_of(study.runs.size(), "run") + " in " +
+                     (folder / "runs").string() + ": " + axes_text(study) + "\n";
   if (matched < study.runs.size()) text += std::to_string(matched) + " chosen by --only; ";
   text += std::to_string(matched - to_compute.size()) + " there, " + std::to_string(to_compute.size()) + " to run";
   std::string why;
@@ -496,14 +514,16 @@ int run_study(const StudyArguments& arguments) {
   for (const StudyRow& row : table.rows) failed += row.status == "failed" || row.status == "refused";
   if (!arguments.quiet) {
     std::printf("\n%s", output::study_text(table).c_str());
-    if (const auto orders = output::observed_orders(table); !orders.empty()) std::printf("\n%s", output::order_text(orders).c_str());
+    if (const auto orders = output::observed_orders(table); !orders.empty())
+      std::printf("\n%s", output::order_text(orders).c_str());
     std::printf("\n");
     for (const StudyRow& row : table.rows)
-      if (!row.message.empty() && row.status != "not run") std::printf("%s, %s: %s\n", row.name.c_str(), row.status.c_str(), row.message.c_str());
+      if (!row.message.empty() && row.status != "not run")
+        std::printf("%s, %s: %s\n", row.name.c_str(), row.status.c_str(), row.message.c_str());
     std::printf("%s%s%s", missing_metrics(study, table).c_str(), other_programs(table, version_line()).c_str(),
                 left_over_text(left_over(work.states(), study, folder / "runs")).c_str());
-    std::printf("%s and order.csv are written. Pictures: /usr/bin/python3 scripts/plot_study.py %s\n", (folder / "study.csv").c_str(),
-                folder.c_str());
+    std::printf("%s and order.csv are written. Pictures: /usr/bin/python3 scripts/plot_study.py %s\n",
+                (folder / "study.csv").c_str(), folder.c_str());
   }
   if (signals > 0) {
     if (!arguments.quiet) std::printf("interrupted; the same command goes on where this one ended\n");

@@ -46,7 +46,9 @@ RunTimes::RunTimes(const scene::Study& study, const std::vector<output::StudyRow
   median_ = all.empty() ? nan : all[all.size() / 2];
 }
 
-double RunTimes::expected(std::size_t run) const { return weights_[run] * (std::isnan(factors_[run]) ? median_ : factors_[run]); }
+double RunTimes::expected(std::size_t run) const {
+  return weights_[run] * (std::isnan(factors_[run]) ? median_ : factors_[run]);
+}
 
 StudyProgress::StudyProgress(std::size_t to_compute, bool quiet)
     : total_(to_compute), quiet_(quiet), terminal_(isatty(fileno(stdout)) != 0), start_(Clock::now()), last_(start_) {}
@@ -56,7 +58,8 @@ void StudyProgress::line(const output::StudyRow& row, const std::vector<std::str
   if (quiet_) return;
   clear();
   std::string text = counted() + row.name + ": " + row.status;
-  if (!row.cpu_times.empty()) text += ", " + output::print("%.4g", *std::min_element(row.cpu_times.begin(), row.cpu_times.end())) + " s CPU";
+  if (!row.cpu_times.empty())
+    text += ", " + output::print("%.4g", *std::min_element(row.cpu_times.begin(), row.cpu_times.end())) + " s CPU";
   if (!errors.empty() && !std::isnan(row.errors[0])) text += ", " + errors[0] + " " + output::print("%.3g", row.errors[0]);
   if (row.status != "done") text += ": " + row.message;
   if (ended_ < total_ && !std::isnan(seconds_left)) text += "; " + left_text(seconds_left);

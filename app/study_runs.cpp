@@ -28,7 +28,8 @@ std::string settings_of(std::string resolved) {
 std::string what_changed(const std::string& before, const std::string& now, const std::string& file) {
   try {
     std::string keys;
-    const auto differing = output::differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
+    const auto differing =
+        output::differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
     for (std::size_t k = 0; k < differing.size() && k < 3; ++k) keys += (k > 0 ? ", " : "") + differing[k].key;
     if (differing.size() > 3) keys += ", ...";
     return "changed: " + (keys.empty() ? "threads, probes, output or comparison" : keys);
@@ -98,12 +99,14 @@ std::vector<RunState> run_states(const scene::Study& study, const fs::path& runs
   for (const fs::path& folder : left_over(states, study, runs_folder))
     if (const auto resolved = output::text_of(folder / "resolved.toml")) others[settings_of(*resolved)] = folder;
   for (std::size_t r = 0; r < states.size(); ++r)
-    if (const auto found = others.find(settings_of(study.runs[r].resolved)); states[r].reason == "not there" && found != others.end())
+    if (const auto found = others.find(settings_of(study.runs[r].resolved));
+        states[r].reason == "not there" && found != others.end())
       if (RunState there = run_state(found->second, study, study.runs[r]); there.finished) states[r] = std::move(there);
   return states;
 }
 
-std::vector<fs::path> left_over(const std::vector<RunState>& states, const scene::Study& study, const fs::path& runs_folder) {
+std::vector<fs::path> left_over(const std::vector<RunState>& states, const scene::Study& study,
+                                const fs::path& runs_folder) {
   std::set<fs::path> known;
   for (const RunState& state : states) known.insert(state.folder);
   for (const scene::StudyRun& run : study.runs) known.insert(runs_folder / run.name);
@@ -120,9 +123,12 @@ void clear_run_folder(const fs::path& folder) {
   const auto has = [&](const char* name) { return fs::exists(folder / name, error); };
   if (fs::exists(folder, error)) {
     if (!has("log.txt") && !has("resolved.toml") && !fs::is_empty(folder, error))
-      throw UsageError(folder.string() + " is in the way: it is no run's folder, and a run of the study needs its name; move it away");
+      throw UsageError(folder.string() +
+                       " is in the way: it is no run's folder, and a run of the study needs its name; move it away");
     fs::remove_all(folder, error);
-    if (error) throw FileError(folder.string() + ": cannot be cleared: " + error.message() + "; remove it, or choose another folder with -o");
+    if (error)
+      throw FileError(folder.string() + ": cannot be cleared: " + error.message() +
+                      "; remove it, or choose another folder with -o");
   }
   output::make_folder(folder);
 }

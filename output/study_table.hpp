@@ -44,7 +44,8 @@ std::vector<ObservedOrders> observed_orders(const StudyTable& table);
 /// For each error, whether each row is on the front of CPU time and error among the runs of its problem.
 std::vector<std::vector<bool>> pareto_fronts(const StudyTable& table);
 
-/// study.csv: values, status, errors, fronts (1 or 0; empty where the run has no error), cost, ledger errors, clamps, all metrics.
+/// study.csv: values, status, errors, fronts (1 or 0; empty where the run has no error), cost, ledger errors, clamps, all
+/// metrics.
 std::string study_csv(const StudyTable& table);
 /// order.csv: a line per pair of neighbours and one "least squares" per curve.
 std::string order_csv(const std::vector<ObservedOrders>& orders);

@@ -18,7 +18,8 @@ struct Draft {
   Node root;                          ///< the document, overrides applied
   Report report;
   bool dimension_good = true, spacing_good = false;
-  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes, probe_nodes;  ///< into root, beside the scene's own vectors
+  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes,
+      probe_nodes;  ///< into root, beside the scene's own vectors
   std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, probe_good;
   struct NamedSubtraction {
     const Node* name;                 ///< as written
@@ -30,7 +31,8 @@ struct Draft {
 };
 
 /// The file itself, or the one of the usual name in a folder. Throws FileError, which ends in the hint, where there is none.
-std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name, const std::string& hint);
+std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name,
+                                 const std::string& hint);
 /// Throws FileError.
 std::string file_text(const std::filesystem::path& file);
 /// The folder of a file of the usual name, else the file without its ending; only what a name may hold.

@@ -43,12 +43,14 @@ std::vector<Finding> without_repetitions(const std::vector<Finding>& findings) {
 
 }  // namespace
 
-std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name, const std::string& hint) {
+std::filesystem::path found_file(const std::filesystem::path& path, const char* kind, const char* usual_name,
+                                 const std::string& hint) {
   const std::string a_kind = std::string("a ") + kind, in_folder = std::string("a folder with ") + usual_name;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     if (!std::filesystem::is_regular_file(path / usual_name, ignored))
-      throw FileError(path.string() + ": the folder holds no " + usual_name + "; name " + a_kind + " file or a folder with one");
+      throw FileError(path.string() + ": the folder holds no " + usual_name + "; name " + a_kind +
+                      " file or a folder with one");
     return path / usual_name;
   }
   if (!std::filesystem::exists(path, ignored))

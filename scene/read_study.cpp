@@ -54,7 +54,8 @@ bool is_number(const Node& node) { return node.kind == Node::Kind::integer || no
 std::string label_of(const Node& node) { return node.kind == Node::Kind::text ? node.text : toml_value(node); }
 
 /// The leaves of a variant's table are settings; a quoted path sets its value as a whole.
-void collect_settings(const Node& table, const std::string& path, StudyValue& value, std::vector<Where>& places, Report& report) {
+void collect_settings(const Node& table, const std::string& path, StudyValue& value, std::vector<Where>& places,
+                      Report& report) {
   for (const Entry* entry : in_file_order(table)) {
     const std::string key = path.empty() ? entry->key : path + '.' + entry->key;
     const bool whole = entry->key.find('.') != std::string::npos;
@@ -69,10 +70,13 @@ void collect_settings(const Node& table, const std::string& path, StudyValue& va
   }
 }
 
-void read_values(const TableReader& table, const std::string& key, StudyAxis& axis, std::vector<std::vector<Where>>& places) {
+void read_values(const TableReader& table, const std::string& key, StudyAxis& axis,
+                 std::vector<std::vector<Where>>& places) {
   const Node* values = table.find("values");
   if (!values || values->kind != Node::Kind::array || values->items.empty()) {
-    if (values) table.complain("values", table.path_of("values") + " must be a list of at least one value, not " + values->described());
+    if (values)
+      table.complain("values",
+                     table.path_of("values") + " must be a list of at least one value, not " + values->described());
     else table.need("values", "list the values of " + key + ", e.g. values = [0.002, 0.001]");
     return;
   }
@@ -86,7 +90,8 @@ void read_values(const TableReader& table, const std::string& key, StudyAxis& ax
   for (std::size_t i = 0; i < values->items.size(); ++i) {
     const Node& item = values->items[i];
     if (item.kind == Node::Kind::other) {
-      table.report().add(item, table.path_of("values") + " has " + item.described() + ", which no setting of a scene can be");
+      table.report().add(item,
+                         table.path_of("values") + " has " + item.described() + ", which no setting of a scene can be");
       continue;
     }
     StudyValue value{labels.empty() ? label_of(item) : labels[i], {{key, toml_value(item)}}, {}};
@@ -99,7 +104,8 @@ void read_values(const TableReader& table, const std::string& key, StudyAxis& ax
 void read_variants(const TableReader& table, StudyAxis& axis, std::vector<std::vector<Where>>& places) {
   const Node* variants = table.find("variants");
   if (variants->kind != Node::Kind::table || variants->entries.empty()) {
-    table.complain("variants", table.path_of("variants") + " must be tables of settings by name, such as [axes.variants.riemann], not " +
+    table.complain("variants", table.path_of("variants") +
+                                   " must be tables of settings by name, such as [axes.variants.riemann], not " +
                                    variants->described());
     return;
   }
@@ -139,25 +145,31 @@ void read_axes(const TableReader& top, StudyDraft& draft) {
     std::string key;
     if (table.has("variants")) {
       for (const char* other : {"key", "values", "labels"})
-        if (table.has(other)) table.complain(other, table.path_of(other) + " and variants exclude each other; give one of them");
+        if (table.has(other))
+          table.complain(other, table.path_of(other) + " and variants exclude each other; give one of them");
       read_variants(table, axis, places);
-    } else if (table.need("key", "give the key that varies, e.g. key = \"resolution.spacing\", with values = [...]; or [axes.variants.<name>] "
-                                 "with the settings of each variant") &&
+    } else if (table.need("key",
+                          "give the key that varies, e.g. key = \"resolution.spacing\", with values = [...]; or "
+                          "[axes.variants.<name>] "
+                          "with the settings of each variant") &&
                table.read("key", key)) {
-      if (key.empty()) table.complain("key", table.path_of("key") + " is empty; give a dotted path such as \"resolution.spacing\"");
+      if (key.empty())
+        table.complain("key", table.path_of("key") + " is empty; give a dotted path such as \"resolution.spacing\"");
       else read_values(table, key, axis, places);
     }
     if (axis.name.empty()) continue;
     if (const auto names = axis_names(study); std::find(names.begin(), names.end(), axis.name) != names.end()) {
-      table.complain("name", axis.name == "scene" ? "an axis cannot be named 'scene' beside scenes = [...]; name it otherwise"
-                                                  : "two axes are named '" + axis.name + "'; name them differently");
+      table.complain("name", axis.name == "scene"
+                                 ? "an axis cannot be named 'scene' beside scenes = [...]; name it otherwise"
+                                 : "two axes are named '" + axis.name + "'; name them differently");
       continue;
     }
     check_labels(axis, *nodes[i], draft.report);
     for (const StudyAxis& other : study.axes)
       for (const std::string& mine : keys_of(axis))
         if (keys_of(other).contains(mine))
-          table.complain("name", "axes '" + other.name + "' and '" + axis.name + "' both set " + mine + "; vary it in one of them");
+          table.complain("name",
+                         "axes '" + other.name + "' and '" + axis.name + "' both set " + mine + "; vary it in one of them");
     if (axis.values.empty()) continue;
     study.axes.push_back(std::move(axis));
     draft.places.push_back(std::move(places));
@@ -177,7 +189,10 @@ void read_scenes(const TableReader& top, StudyDraft& draft) {
   std::error_code ignored;
   if (!draft.scene_node) {
     if (std::filesystem::is_regular_file(folder / "case.toml", ignored)) draft.scenes = {folder.empty() ? "." : folder};
-    else draft.report.add(Where{}, "scene is missing; give the scene's file or folder, relative to the study file, e.g. scene = \"../cases/sjogreen\"");
+    else
+      draft.report.add(Where{},
+                       "scene is missing; give the scene's file or folder, relative to the study file, e.g. scene = "
+                       "\"../cases/sjogreen\"");
     return;
   }
   if (draft.scene_node->kind == Node::Kind::array && draft.scene_node->items.empty())
@@ -203,10 +218,12 @@ void read_scenes(const TableReader& top, StudyDraft& draft) {
 void read_resolution(const TableReader& top, Study& study) {
   std::string name;
   const auto numeric = [](const StudyAxis& axis) {
-    return std::all_of(axis.values.begin(), axis.values.end(), [](const StudyValue& v) { return v.number > 0 && std::isfinite(v.number); });
+    return std::all_of(axis.values.begin(), axis.values.end(),
+                       [](const StudyValue& v) { return v.number > 0 && std::isfinite(v.number); });
   };
   for (std::size_t a = 0; a < study.axes.size(); ++a)
-    if (!study.axes[a].values[0].settings.empty() && study.axes[a].values[0].settings[0].key == "resolution.spacing" && numeric(study.axes[a]))
+    if (!study.axes[a].values[0].settings.empty() && study.axes[a].values[0].settings[0].key == "resolution.spacing" &&
+        numeric(study.axes[a]))
       study.resolution = a;
   if (!top.read("resolution", name)) return;
   study.resolution.reset();
@@ -215,7 +232,8 @@ void read_resolution(const TableReader& top, Study& study) {
   if (found == names.end()) {
     top.unknown_word("resolution", name, names);
   } else if (const auto a = static_cast<std::size_t>(found - names.begin()); !numeric(study.axes[a])) {
-    top.complain("resolution", "resolution: the values of axis '" + name + "' are not positive numbers; orders are observed over lengths");
+    top.complain("resolution",
+                 "resolution: the values of axis '" + name + "' are not positive numbers; orders are observed over lengths");
   } else {
     study.resolution = a;
   }
@@ -241,7 +259,8 @@ void read_errors(const TableReader& top, StudyDraft& draft) {
       table.read("source", error.source);
       table.read("label", error.label);
     } else {
-      draft.report.add(item, "errors: " + item.described() + " is neither the name of a metric nor {metric = ..., source = ...}");
+      draft.report.add(item,
+                       "errors: " + item.described() + " is neither the name of a metric nor {metric = ..., source = ...}");
       continue;
     }
     if (error.label.empty()) error.label = error.metric + (error.source.empty() ? "" : " from " + error.source);
@@ -264,7 +283,8 @@ std::set<std::size_t> excluded_values(const Entry& entry, const StudyAxis& axis,
         found = true;
       }
     if (!found)
-      report.add(wanted, "exclude: axis '" + axis.name + "' has no value " + label_of(wanted) + suggestion(label_of(wanted), labels_of(axis)));
+      report.add(wanted, "exclude: axis '" + axis.name + "' has no value " + label_of(wanted) +
+                             suggestion(label_of(wanted), labels_of(axis)));
   }
   return result;
 }
@@ -272,7 +292,8 @@ std::set<std::size_t> excluded_values(const Entry& entry, const StudyAxis& axis,
 void read_exclude(const TableReader& top, StudyDraft& draft) {
   const std::vector<std::string> names = axis_names(draft.study);
   for (const Node* node : top.tables("exclude")) {
-    if (node->entries.empty()) draft.report.add(*node, "exclude: an empty rule leaves out every run; name values of axes, e.g. {spacing = 0.001}");
+    if (node->entries.empty())
+      draft.report.add(*node, "exclude: an empty rule leaves out every run; name values of axes, e.g. {spacing = 0.001}");
     std::map<std::size_t, std::set<std::size_t>> rule;
     for (const Entry* entry : in_file_order(*node)) {
       const auto found = std::find(names.begin(), names.end(), entry->key);
@@ -313,7 +334,8 @@ void expand(StudyDraft& draft) {
   double count = 1;
   for (const StudyAxis& axis : study.axes) count *= static_cast<double>(axis.values.size());
   if (count > most_runs) {
-    draft.report.add(Where{}, "the study has " + rounded(count) + " runs, more than " + std::to_string(most_runs) + "; split it");
+    draft.report.add(Where{},
+                     "the study has " + rounded(count) + " runs, more than " + std::to_string(most_runs) + "; split it");
     return;
   }
   const bool sound = draft.report.empty();                // else the names may be the fault of what has been reported
@@ -324,7 +346,8 @@ void expand(StudyDraft& draft) {
     for (std::size_t a = study.axes.size(), rest = number; a-- > 0; rest /= study.axes[a].values.size())
       run.values[a] = rest % study.axes[a].values.size();
     const bool excluded = std::any_of(draft.exclude.begin(), draft.exclude.end(), [&](const auto& rule) {
-      return std::all_of(rule.begin(), rule.end(), [&](const auto& each) { return each.second.contains(run.values[each.first]); });
+      return std::all_of(rule.begin(), rule.end(),
+                         [&](const auto& each) { return each.second.contains(run.values[each.first]); });
     });
     if (excluded) continue;
     run.scene = draft.scenes.front();
@@ -336,7 +359,8 @@ void expand(StudyDraft& draft) {
     }
     run.name = run_name(study, run.values);
     if (sound && run.name.size() > 200)
-      draft.report.add(Where{}, "the folder's name " + run.name.substr(0, 60) + "... is too long; give the values shorter labels");
+      draft.report.add(Where{},
+                       "the folder's name " + run.name.substr(0, 60) + "... is too long; give the values shorter labels");
     else if (sound && !names.insert(run.name).second)
       draft.report.add(Where{}, "two runs would have the folder " + run.name + "; label their values more differently");
     study.runs.push_back(std::move(run));
@@ -377,7 +401,8 @@ void read_runs(StudyDraft& draft) {
   Study& study = draft.study;
   for (StudyRun& run : study.runs) {
     const auto note = [&](Place place, const std::string& message) {
-      const auto same = std::find_if(mistakes.begin(), mistakes.end(), [&](const Mistake& each) { return each.message == message; });
+      const auto same =
+          std::find_if(mistakes.begin(), mistakes.end(), [&](const Mistake& each) { return each.message == message; });
       if (same == mistakes.end()) {
         mistakes.push_back({place, message, run.name, 1});
         return;

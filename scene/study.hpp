@@ -22,7 +22,7 @@ struct StudyValue {
 
 struct StudyAxis {
   std::string name;
-  bool problem = false;                  ///< its values are different problems: their errors are not compared with each other
+  bool problem = false;  ///< its values are different problems: their errors are not compared with each other
   std::vector<StudyValue> values;
 };
 

@@ -4,9 +4,9 @@
 Usage: /usr/bin/python3 scripts/plot_study.py DIR [--dpi N]      DIR: what undex study wrote
 
 Reads DIR/study.json, study.csv and order.csv, and writes DIR/pictures/*.png: for each error and each problem (scene)
-`cost_<error>.png` with the Pareto front and, where there is an axis of resolution, `order_<error>.png` with slopes; `conservation.png`;
-`overview.png`: CPU time, memory a particle and speed. Runs that are not done are left out. Needs python3-numpy and
-python3-matplotlib (Debian's own).
+`cost_<error>.png` with the Pareto front and, where there is an axis of resolution, `order_<error>.png` with slopes;
+`conservation.png`; `overview.png`: CPU time, memory a particle and speed. Runs that are not done are left out. Needs
+python3-numpy and python3-matplotlib (Debian's own).
 """
 import argparse
 import csv
@@ -55,7 +55,8 @@ class Study:
                 raise Missing(f"{self.folder / name}: missing; give the folder that undex study wrote")
         try:
             said = json.loads((self.folder / "study.json").read_text())
-            self.title, self.axes, self.resolution, self.errors = (said[key] for key in ("title", "axes", "resolution", "errors"))
+            self.title, self.axes = said["title"], said["axes"]
+            self.resolution, self.errors = said["resolution"], said["errors"]
         except (ValueError, KeyError, TypeError) as error:
             raise Missing(f"{self.folder / 'study.json'}: not a study's ({error!r}); run the study again") from error
         with open(self.folder / "study.csv", newline="") as file:
@@ -83,8 +84,9 @@ class Study:
             place = [values[axis].index(row[axis]) for axis in telling]
             two = len(telling) == 2 and len(values[telling[1]]) <= len(LINES) and len(values[telling[0]]) <= len(COLOURS)
             colour, line = (place[0], place[1]) if two else (i, i // len(COLOURS))
-            result[curve] = {"color": COLOURS[colour % len(COLOURS)], "ls": LINES[line % len(LINES)], "marker": MARKERS[i % len(MARKERS)],
-                             "mfc": "white" if two and place[1] % 2 else COLOURS[colour % len(COLOURS)]}
+            paint = COLOURS[colour % len(COLOURS)]
+            result[curve] = {"color": paint, "ls": LINES[line % len(LINES)], "marker": MARKERS[i % len(MARKERS)],
+                             "mfc": "white" if two and place[1] % 2 else paint}
         return result
 
     def points(self, problem, x, y):
@@ -95,7 +97,7 @@ class Study:
                     and number(row.get(x, "")) > 0 and abs(number(row.get(y, ""))) > 0]
             rows.sort(key=lambda row: number(row[self.resolution if self.resolution else x]))
             if rows:
-                result[curve] = (np.array([number(row[x]) for row in rows]), np.array([abs(number(row[y])) for row in rows]), rows)
+                result[curve] = (*(np.array([abs(number(row[column])) for row in rows]) for column in (x, y)), rows)
         return result
 
 
@@ -116,7 +118,7 @@ def logarithmic(axis, which):
     part = axis.xaxis if which == "x" else axis.yaxis
     low, high = axis.get_xlim() if which == "x" else axis.get_ylim()
     decades = np.log10(high / low)
-    subs = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0) if decades > 0.8 else (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
+    subs = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0) if decades > 1.2 else (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
     part.set_major_locator(LogLocator(subs=subs, numticks=20))
     part.set_major_formatter(FuncFormatter(shown_number))
     part.set_minor_formatter(NullFormatter())
@@ -131,10 +133,12 @@ def finish(axis, title):
     axis.spines[["top", "right"]].set_visible(False)
 
 
-def legend_beside(figure, axis, handles=None, labels=None):
-    """To the right of the panel, where it covers no curve."""
-    handles, labels = (handles, labels) if handles is not None else axis.get_legend_handles_labels()
-    axis.legend(handles, labels, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=8.5, handlelength=3.2)
+LEGEND = dict(frameon=False, fontsize=8.5, handlelength=3.2)
+
+
+def legend_below(axis):
+    """Under the panel, where it covers no curve."""
+    axis.legend(loc="upper left", bbox_to_anchor=(-0.02, -0.13), ncol=2, **LEGEND)
 
 
 def resolution_label(study):
@@ -146,7 +150,7 @@ def plot_cost(study, problem, error):
     curves = study.points(problem, "cpu_time_s", f"error: {error}")
     if not curves:
         return None
-    figure, axis = plt.subplots(figsize=(9.2, 5.2), layout="constrained")
+    figure, axis = plt.subplots(figsize=(8.4, 6.4), layout="constrained")
     front = []
     for curve, (time, values, rows) in curves.items():
         axis.plot(time, values, lw=1.5, ms=6.5, label=curve, zorder=3, **study.style[curve])
@@ -158,11 +162,11 @@ def plot_cost(study, problem, error):
         axis.step(times, values, where="post", color="0.6", lw=5, alpha=0.35, zorder=1, solid_capstyle="round")
     for curve, (time, values, rows) in curves.items():  # the ends of a curve say which resolution they are
         for i in ({0, len(rows) - 1} if study.resolution and len(rows) > 1 else ()):
-            axis.annotate(rows[i][study.resolution], (time[i], values[i]), textcoords="offset points", xytext=(6, 5), fontsize=7,
-                          color=study.style[curve]["color"])
-    axis.set(xlabel="CPU time [s]", ylabel=f"error: {error}")
+            axis.annotate(rows[i][study.resolution], (time[i], values[i]), textcoords="offset points", xytext=(6, 5),
+                          fontsize=7, color=study.style[curve]["color"])
+    axis.set(xlabel="CPU time [s]", ylabel=error)
     finish(axis, study.title + (f"\n{problem}" if problem else ""))
-    legend_beside(figure, axis)
+    legend_below(axis)
     return figure
 
 
@@ -183,15 +187,16 @@ def plot_order(study, problem, error):
     curves = study.points(problem, study.resolution, f"error: {error}")
     if not any(len(x) > 1 for x, _, _ in curves.values()):
         return None
-    figure, axis = plt.subplots(figsize=(9.2, 5.2), layout="constrained")
+    figure, axis = plt.subplots(figsize=(8.4, 6.4), layout="constrained")
     for curve, (h, values, _) in curves.items():
         order = study.orders.get((error, curve), np.nan)
-        axis.plot(h, values, lw=1.5, ms=6.5, zorder=3, label=curve + (f"   order {order:.2f}" if not np.isnan(order) else ""), **study.style[curve])
+        label = curve + ("" if np.isnan(order) else f"   order {order:.2f}")
+        axis.plot(h, values, lw=1.5, ms=6.5, zorder=3, label=label, **study.style[curve])
     for order in (1, 2):
         slope_guide(axis, curves, order)
-    axis.set(xlabel=resolution_label(study), ylabel=f"error: {error}")
+    axis.set(xlabel=resolution_label(study), ylabel=error)
     finish(axis, study.title + (f"\n{problem}" if problem else ""))
-    legend_beside(figure, axis)
+    legend_below(axis)
     return figure
 
 
@@ -201,14 +206,19 @@ def panels_of(study, problem, x, quantities):
     present = [each for each in present if each[2]]
     if not present:
         return None
-    figure, axes = plt.subplots(1, len(present), figsize=(4.4 * len(present) + 3.0, 4.4), squeeze=False, layout="constrained")
+    columns = min(2, len(present))
+    lines = -(-len(present) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(4.6 * columns + 3.0, 3.8 * lines + 0.3), squeeze=False,
+                                layout="constrained")
+    for axis in axes.flat[len(present):]:
+        axis.remove()
     handles = {}
     for axis, (column, label, curves) in zip(axes.flat, present):
         for curve, (values_x, values, _) in curves.items():
             handles[curve], = axis.plot(values_x, values, lw=1.5, ms=6, **study.style[curve])
         axis.set(xlabel=resolution_label(study) if x == study.resolution else "CPU time [s]")
         finish(axis, label)
-    legend_beside(figure, axes.flat[-1], list(handles.values()), list(handles))
+    axes[0, -1].legend(list(handles.values()), list(handles), loc="upper left", bbox_to_anchor=(1.01, 1.0), **LEGEND)
     figure.suptitle(study.title + (f": {problem}" if problem else ""), fontsize=11)
     return figure
 
@@ -223,12 +233,12 @@ def plot_overview(study, problem):
     """What a run costs."""
     for row in study.rows:
         time = number(row["cpu_time_s"])
-        row["million updates a second"] = str(1e-6 * number(row["particle_updates"]) / time) if time > 0 else ""
-        row["interactions a second"] = str(1e-6 * number(row["neighbour_interactions"]) / time) if time > 0 else ""
+        row["updates"] = str(1e-6 * number(row["particle_updates"]) / time) if time > 0 else ""
+        row["interactions"] = str(1e-6 * number(row["neighbour_interactions"]) / time) if time > 0 else ""
     return panels_of(study, problem, study.resolution or "cpu_time_s",
                      [("cpu_time_s", "CPU time [s]"), ("bytes_per_particle", "bytes a particle"),
-                      ("million updates a second", "million particle updates a CPU second"),
-                      ("interactions a second", "million neighbours a CPU second")])
+                      ("updates", "million particle updates a CPU second"),
+                      ("interactions", "million neighbours a CPU second")])
 
 
 def file_name(*parts):
@@ -251,9 +261,11 @@ def main():
         old.unlink()
     drawn = 0
     for problem in study.problems:
-        jobs = {file_name("cost", error, problem): lambda error=error: plot_cost(study, problem, error) for error in study.errors}
-        if study.resolution:
-            jobs |= {file_name("order", error, problem): lambda error=error: plot_order(study, problem, error) for error in study.errors}
+        jobs = {}
+        for error in study.errors:
+            jobs[file_name("cost", error, problem)] = lambda error=error: plot_cost(study, problem, error)
+            if study.resolution:
+                jobs[file_name("order", error, problem)] = lambda error=error: plot_order(study, problem, error)
         jobs[file_name("conservation", problem)] = lambda: plot_conservation(study, problem)
         jobs[file_name("overview", problem)] = lambda: plot_overview(study, problem)
         for name, draw in jobs.items():

@@ -37,7 +37,8 @@ TEST(Convergence, ParetoFront) {
   EXPECT_EQ(pareto_front({1, 2, 3, 4}, {8, 4, 5, 1}), (std::vector<bool>{true, true, false, true}));
   EXPECT_EQ(pareto_front({1, 1, 2}, {3, 3, 3}), (std::vector<bool>{true, true, false})) << "equals do not beat each other";
   EXPECT_EQ(pareto_front({1, 1}, {3, 2}), (std::vector<bool>{false, true})) << "better in one is enough";
-  EXPECT_EQ(pareto_front({1, nan, 0.5, 3}, {2, 0, nan, 1}), (std::vector<bool>{true, false, false, true})) << "the unknown beats nobody";
+  EXPECT_EQ(pareto_front({1, nan, 0.5, 3}, {2, 0, nan, 1}), (std::vector<bool>{true, false, false, true}))
+      << "the unknown beats nobody";
   EXPECT_TRUE(pareto_front({}, {}).empty());
 }
 

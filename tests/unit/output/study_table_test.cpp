@@ -76,9 +76,12 @@ TEST(StudyTable, FrontsKeepToTheirProblem) {
 TEST(StudyTable, CsvHasARowARun) {
   const std::string text = study_csv(table());
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10);
-  EXPECT_NE(text.find("run,scene,scheme,spacing,curve,problem,status,message,error: l1,pareto: l1,cpu_time_s,"), std::string::npos);
-  EXPECT_NE(text.find("\ntube__good__0.1,tube,good,0.1,\"tube, good\",tube,done,,0.01,1,10,11,10,2,"), std::string::npos) << text;
-  EXPECT_NE(text.find(",stopped,\"energy, off by \"\"half\"\"\",,,4,5,"), std::string::npos) << "no error, on no front\n" << text;
+  EXPECT_NE(text.find("run,scene,scheme,spacing,curve,problem,status,message,error: l1,pareto: l1,cpu_time_s,"),
+            std::string::npos);
+  EXPECT_NE(text.find("\ntube__good__0.1,tube,good,0.1,\"tube, good\",tube,done,,0.01,1,10,11,10,2,"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find(",stopped,\"energy, off by \"\"half\"\"\",,,4,5,"), std::string::npos) << "no error, on no front\n"
+                                                                                             << text;
   EXPECT_NE(text.find(",25000,250,"), std::string::npos) << "bytes a particle";
 }
 

@@ -46,7 +46,8 @@ std::string study_mistakes(const std::string& text) {
   } catch (const SceneError& error) {
     std::string all;
     for (const Finding& finding : error.findings())
-      all += (finding.where.line > 0 ? std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column) + ": " : std::string()) +
+      all += (finding.where.line > 0 ? std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column) + ": "
+                                     : std::string()) +
              finding.message + '\n';
     return all;
   }
@@ -93,7 +94,8 @@ labels = ["diatomic", "two"]
   ASSERT_EQ(study.runs.size(), 2u);
   EXPECT_EQ(study.runs[1].name, "law__gamma_two");
   const std::string& resolved = study.runs[1].resolved;
-  for (const char* line : {"threads = 2", "end_time = 0.2", "field_times = [0.1]", "gamma = 1.6", "rho0 = 2.5", "variable_h = false", "gamma = 2.0"})
+  for (const char* line : {"threads = 2", "end_time = 0.2", "field_times = [0.1]", "gamma = 1.6", "rho0 = 2.5",
+                           "variable_h = false", "gamma = 2.0"})
     EXPECT_NE(resolved.find(line), std::string::npos) << line << "\n" << resolved;
   EXPECT_FALSE(study.resolution.has_value());
 }
@@ -109,8 +111,10 @@ TEST(Study, SeveralScenesAreAnAxisOfProblems) {
   std::filesystem::create_directory(scratch.folder() / "other");
   scratch.write(two_gases, "gas.toml");
   scratch.write(coupled_tube, "other/case.toml");
-  const Study study = read_study(scratch.write("scenes = [\"gas.toml\", \"other\"]\nexclude = [{scene = \"gas\", spacing = 0.003}]\n"
-                                               "[[axes]]\nname = \"spacing\"\nkey = \"resolution.spacing\"\nvalues = [0.004, 0.003]\n", "s.toml"));
+  const Study study =
+      read_study(scratch.write("scenes = [\"gas.toml\", \"other\"]\nexclude = [{scene = \"gas\", spacing = 0.003}]\n"
+                               "[[axes]]\nname = \"spacing\"\nkey = \"resolution.spacing\"\nvalues = [0.004, 0.003]\n",
+                               "s.toml"));
   ASSERT_EQ(study.runs.size(), 3u);
   EXPECT_EQ(study.axes[0].name, "scene");
   EXPECT_TRUE(study.axes[0].problem);
@@ -128,15 +132,18 @@ TEST(Study, ExcludesWhatARuleNames) {
   };
   EXPECT_EQ(names("[{spacing = 0.01, scheme = \"zeta\"}]"),
             "spacing_0.02__zeta spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
-  EXPECT_EQ(names("[{spacing = 1e-2}]"), "spacing_0.02__zeta spacing_0.02__monaghan_1_10 ") << "numbers are compared as such";
-  EXPECT_EQ(names("[{scheme = [\"zeta\"], spacing = [0.01, 0.02]}]"), "spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
+  EXPECT_EQ(names("[{spacing = 1e-2}]"), "spacing_0.02__zeta spacing_0.02__monaghan_1_10 ")
+      << "numbers are compared as such";
+  EXPECT_EQ(names("[{scheme = [\"zeta\"], spacing = [0.01, 0.02]}]"),
+            "spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
   EXPECT_EQ(names("[{spacing = 0.01}, {scheme = \"zeta\"}]"), "spacing_0.02__monaghan_1_10 ");
 }
 
 TEST(Study, ErrorsAndLimits) {
-  const Study study = study_of("repeats = 3\ncpu_limit = 10\nresolution = \"spacing\"\n" +
-                               with(study_text, "errors = [\"energy_error\"]",
-                                    "errors = [\"l1_pressure\", {metric = \"peak_pa\", source = \"exact\"}, {metric = \"a\", label = \"b\"}]"));
+  const Study study = study_of(
+      "repeats = 3\ncpu_limit = 10\nresolution = \"spacing\"\n" +
+      with(study_text, "errors = [\"energy_error\"]",
+           "errors = [\"l1_pressure\", {metric = \"peak_pa\", source = \"exact\"}, {metric = \"a\", label = \"b\"}]"));
   ASSERT_EQ(study.errors.size(), 3u);
   EXPECT_EQ(study.errors[0].label, "l1_pressure");
   EXPECT_EQ(study.errors[1].label, "peak_pa from exact");
@@ -193,22 +200,27 @@ labels = ["a", "b"]
 }
 
 TEST(Study, MistakesOfTheScenesAreToldWhereTheStudyMakesThem) {
-  EXPECT_EQ(study_mistakes(with(with(study_text, "resolution.spacing", "resolution.spacng"), "scheme.beta = 10", "scheme.beta = -1\nbodies.lefd.energy = 1")),
+  EXPECT_EQ(study_mistakes(with(with(study_text, "resolution.spacing", "resolution.spacng"), "scheme.beta = 10",
+                                "scheme.beta = -1\nbodies.lefd.energy = 1")),
             "7:7: resolution.spacng: unknown key 'spacng' in resolution; did you mean 'spacing'?\n"
             "15:8: scheme.beta = -1 must be from 0 to 1000 (run spacing_0.02__monaghan_1_10 and 1 more)\n"
-            "16:13: bodies.lefd.energy: nothing in bodies is named 'lefd'; did you mean 'left'? (run spacing_0.02__monaghan_1_10 and 1 more)\n");
+            "16:13: bodies.lefd.energy: nothing in bodies is named 'lefd'; did you mean 'left'? (run "
+            "spacing_0.02__monaghan_1_10 and 1 more)\n");
   // Of a scene that is itself at fault, once.
   const Scratch scratch;
   const std::string scene = scratch.write(with(two_gases, "end_time = 0.1", "end_tim = 0.1")).string();
-  EXPECT_EQ([&]() -> std::string {
-    try {
-      read_study(scratch.write(study_text, "study.toml"));
-    } catch (const SceneError& error) {
-      return error.what();
-    }
-    return "";
-  }(), scratch.folder().string() + "/study.toml: " + scene + ":1:1: end_time is missing; give it in s, e.g. end_time = 1e-4\n" +
-           scratch.folder().string() + "/study.toml: " + scene + ":2:1: unknown key 'end_tim' at the top of the file; did you mean 'end_time'?");
+  EXPECT_EQ(
+      [&]() -> std::string {
+        try {
+          read_study(scratch.write(study_text, "study.toml"));
+        } catch (const SceneError& error) {
+          return error.what();
+        }
+        return "";
+      }(),
+      scratch.folder().string() + "/study.toml: " + scene +
+          ":1:1: end_time is missing; give it in s, e.g. end_time = 1e-4\n" + scratch.folder().string() +
+          "/study.toml: " + scene + ":2:1: unknown key 'end_tim' at the top of the file; did you mean 'end_time'?");
 }
 
 TEST(Study, WhatCannotBeAGrid) {
@@ -222,10 +234,13 @@ TEST(Study, WhatCannotBeAGrid) {
   EXPECT_EQ(study_mistakes("resolution = \"scheme\"\n" + study_text),
             "1:14: resolution: the values of axis 'scheme' are not positive numbers; orders are observed over lengths\n");
   EXPECT_EQ(study_mistakes(with(study_text, "scene = \"case.toml\"", "scene = \"nowhere\"")).find("2:9: "), 0u);
-  EXPECT_EQ(study_mistakes(with(study_text, "values = [0.02, 0.01]", "values = [1979-05-27]")).find("8:11: axes.spacing.values has a date or time"), 0u);
+  EXPECT_EQ(study_mistakes(with(study_text, "values = [0.02, 0.01]", "values = [1979-05-27]"))
+                .find("8:11: axes.spacing.values has a date or time"),
+            0u);
   std::string many;
   for (const char* name : {"a", "b", "c", "d", "e"})
-    many += "[[axes]]\nname = \"" + std::string(name) + "\"\nkey = \"" + name + "\"\nvalues = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
+    many +=
+        "[[axes]]\nname = \"" + std::string(name) + "\"\nkey = \"" + name + "\"\nvalues = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
   EXPECT_EQ(study_mistakes(many), "the study has 100000 runs, more than 10000; split it\n");
   EXPECT_NE(study_mistakes("axes = [").find("not TOML"), std::string::npos);
   const Scratch empty;
@@ -239,7 +254,8 @@ TEST(Study, PageNamesEveryKeyWithItsUnit) {
   page << file.rdbuf();
   for (const Section& section : study_schema())
     for (const Key& key : section.keys)
-      EXPECT_NE(page.str().find("| `" + key.name + "` | " + (key.unit.empty() ? "-" : key.unit) + " |"), std::string::npos) << key.name;
+      EXPECT_NE(page.str().find("| `" + key.name + "` | " + (key.unit.empty() ? "-" : key.unit) + " |"), std::string::npos)
+          << key.name;
 }
 
 TEST(Study, ShippedOnesAreSound) {
