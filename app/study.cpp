@@ -106,6 +106,35 @@ References read_references(const scene::Study& study) {
   return tables;
 }
 
+/// A folder that a study may write into: none yet, an empty one, or a study's.
+void require_study_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::exists(folder, ignored)) return;
+  if (!fs::is_directory(folder, ignored))
+    throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
+  bool empty = true;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) empty = empty && entry.path().filename() == ".lock";
+  if (!empty && !fs::exists(folder / "study.toml", ignored))
+    throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
+}
+
+bool chosen(const std::string& name, const std::vector<std::string>& patterns) {
+  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return name.find(pattern) != std::string::npos || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  });
+}
+
+/// Every pattern of --only must be of use.
+void require_match(const scene::Study& study, const std::vector<std::string>& patterns) {
+  for (const std::string& pattern : patterns) {
+    if (std::any_of(study.runs.begin(), study.runs.end(), [&](const auto& run) { return chosen(run.name, {pattern}); }))
+      continue;
+    std::vector<std::string> names;
+    for (std::size_t r = 0; r < std::min<std::size_t>(study.runs.size(), 10); ++r) names.push_back(study.runs[r].name);
+    throw UsageError("--only " + pattern + ": no run of the study matches; names are such as " + scene::listed(names));
+  }
+}
+
 /// The row that says what is known of a run.
 StudyRow row_of(const scene::Study& study, const scene::StudyRun& run, const RunState& state, const References& references) {
   StudyRow row;
@@ -134,14 +163,8 @@ StudyRow row_of(const scene::Study& study, const scene::StudyRun& run, const Run
   return row;
 }
 
-bool chosen(const std::string& name, const std::vector<std::string>& patterns) {
-  return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-    return name.find(pattern) != std::string::npos || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-  });
-}
-
 std::string quoted_for_shell(const std::string& text) {
-  if (text.find_first_of(" \"'[]{}()$&;*?!<>|#~\\") == std::string::npos) return text;
+  if (!text.empty() && text.find_first_of(" \"'[]{}()$&;*?!<>|#~\\") == std::string::npos) return text;
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
@@ -230,7 +253,6 @@ class Work {
         }
         for (const auto& job : active_) job->child->send(passed_on == 1 ? SIGTERM : SIGKILL);
       }
-      std::vector<std::string> names;
       for (std::size_t j = 0; j < active_.size();) {
         Job& job = *active_[j];
         enforce_limits(job);
@@ -242,11 +264,15 @@ class Work {
           if (more) start(run);
           else progress.line(rows_[run], table().errors, seconds_left(jobs));
         } else {
-          names.push_back(study_.runs[job.run].name + " " + output::duration(job.child->wall_time()));
           ++j;
         }
       }
-      progress.bar(names, seconds_left(jobs));
+      if (progress.bar_is_due()) {
+        std::vector<std::string> names;
+        for (const auto& job : active_)
+          names.push_back(study_.runs[job->run].name + " " + output::duration(job->child->wall_time()));
+        progress.bar(names, seconds_left(jobs));
+      }
       usleep(20000);
     }
     progress.clear();
@@ -448,13 +474,8 @@ int run_study(const StudyArguments& arguments) {
   const scene::Study study = scene::read_study(arguments.study);
   const References references = read_references(study);
   const fs::path folder = arguments.output.empty() ? study.output : fs::path(arguments.output);
-  std::error_code ignored;
-  if (fs::exists(folder, ignored) && !fs::exists(folder / "study.toml", ignored)) {
-    if (!fs::is_directory(folder, ignored))
-      throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
-    if (!fs::is_empty(folder, ignored))
-      throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
-  }
+  require_study_folder(folder);
+  require_match(study, arguments.only);
   std::unique_ptr<Lock> lock;
   if (!arguments.list) {
     output::make_folder(folder);
@@ -478,12 +499,6 @@ int run_study(const StudyArguments& arguments) {
       ++reasons[reason.substr(0, reason.find(':'))];
     }
     plan.push_back({"  " + study.runs[r].name, wanted ? "to run" : state.status, wanted ? reason : state.message});
-  }
-  if (matched == 0) {
-    std::vector<std::string> names;
-    for (const scene::StudyRun& run : study.runs) names.push_back(run.name);
-    names.resize(std::min<std::size_t>(names.size(), 10));
-    throw UsageError("--only: no run of the study matches; names are such as " + scene::listed(names));
   }
   std::string text = study.name + ": " + study.title + "\n" + count_of(study.runs.size(), "run") + " in " +
                      (folder / "runs").string() + ": " + axes_text(study) + "\n";

@@ -60,16 +60,21 @@ void StudyProgress::line(const output::StudyRow& row, const std::vector<std::str
   std::string text = counted() + row.name + ": " + row.status;
   if (!row.cpu_times.empty())
     text += ", " + output::print("%.4g", *std::min_element(row.cpu_times.begin(), row.cpu_times.end())) + " s CPU";
-  if (!errors.empty() && !std::isnan(row.errors[0])) text += ", " + errors[0] + " " + output::print("%.3g", row.errors[0]);
+  const auto known = std::find_if(row.errors.begin(), row.errors.end(), [](double error) { return !std::isnan(error); });
+  if (known != row.errors.end())
+    text += ", " + errors[std::size_t(known - row.errors.begin())] + " " + output::print("%.3g", *known);
   if (row.status != "done") text += ": " + row.message;
   if (ended_ < total_ && !std::isnan(seconds_left)) text += "; " + left_text(seconds_left);
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
 }
 
+bool StudyProgress::bar_is_due() const {
+  return !quiet_ && terminal_ && std::chrono::duration<double>(Clock::now() - last_).count() > 0.2;
+}
+
 void StudyProgress::bar(const std::vector<std::string>& running, double seconds_left) {
   const Clock::time_point now = Clock::now();
-  if (quiet_ || !terminal_ || std::chrono::duration<double>(now - last_).count() < 0.2) return;
   last_ = now;
   std::string text = counted() + output::duration(std::chrono::duration<double>(now - start_).count());
   if (const std::string left = left_text(seconds_left); !left.empty()) text += ", " + left;

@@ -30,7 +30,9 @@ class StudyProgress {
   StudyProgress(std::size_t to_compute, bool quiet);
   /// A run has ended.
   void line(const output::StudyRow& row, const std::vector<std::string>& errors, double seconds_left);
-  /// Now and then; names of the runs under way.
+  /// Where somebody is watching, a few times a second.
+  bool bar_is_due() const;
+  /// With the runs under way.
   void bar(const std::vector<std::string>& running, double seconds_left);
   void clear();
 

@@ -183,7 +183,7 @@ std::string study_text(const StudyTable& table) {
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       line.push_back(error_text(row.errors[e]) + (fronts[e][r] ? "*" : " "));
     const double time = least(row.cpu_times), particles = double(row.record.particles);
-    line.push_back(std::isnan(time) ? "-" : print(time < 10 ? "%.2f" : "%.1f", time));
+    line.push_back(std::isnan(time) ? "-" : print(time < 1 ? "%.3f" : time < 10 ? "%.2f" : "%.1f", time));
     const double bytes = bytes_per_particle(row.record);
     line.push_back(computed(row) ? number(particles, "") : "-");
     line.push_back(computed(row) ? number(double(row.record.steps), "") : "-");

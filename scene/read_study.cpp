@@ -1,5 +1,6 @@
 // Reading a study: its file, the grid of runs, and the scene of each of them.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -51,7 +52,13 @@ std::set<std::string> keys_of(const StudyAxis& axis) {
 
 bool is_number(const Node& node) { return node.kind == Node::Kind::integer || node.kind == Node::Kind::number; }
 
-std::string label_of(const Node& node) { return node.kind == Node::Kind::text ? node.text : toml_value(node); }
+/// Numbers as people write them: 0.0005, not the shorter 5e-04.
+std::string label_of(const Node& node) {
+  if (node.kind == Node::Kind::text) return node.text;
+  if (node.kind != Node::Kind::number) return toml_value(node);
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, node.number, std::chars_format::general).ptr};
+}
 
 /// The leaves of a variant's table are settings; a quoted path sets its value as a whole.
 void collect_settings(const Node& table, const std::string& path, StudyValue& value, std::vector<Where>& places,

@@ -625,7 +625,9 @@ scheme.name = "monaghan"
         self.assertEqual({name: row["status"] for name, row in self.rows().items()},
                          dict(zip(self.NAMES, ("done", "done", "not run", "done"))))
         self.assertIn("1 more not run yet", finished.stdout)
-        self.ends(self.undex("study", "gas.toml", "--only", "gaussian"), 2, "--only: no run of the study matches; names are such as spacing_0.02")
+        self.ends(self.undex("study", "gas.toml", "--only", "monaghan", "--only", "gaussian", "-o", "other"), 2,
+                  "--only gaussian: no run of the study matches; names are such as spacing_0.02")
+        self.assertFalse((self.here / "other").exists())
 
     def test_repetitions(self):
         self.study("repeats = 3\n" + self.TEXT)

@@ -100,6 +100,13 @@ labels = ["diatomic", "two"]
   EXPECT_FALSE(study.resolution.has_value());
 }
 
+TEST(Study, NumbersAreNamedAsPeopleWriteThem) {
+  const Study study = study_of("[[axes]]\nname = \"spacing\"\nkey = \"resolution.spacing\"\nvalues = [0.001, 0.0005, 2.5e-5]\n");
+  EXPECT_EQ(study.runs[0].name, "spacing_0.001");
+  EXPECT_EQ(study.runs[1].name, "spacing_0.0005");
+  EXPECT_EQ(study.runs[2].name, "spacing_2.5e-05");
+}
+
 TEST(Study, AnAxisMaySetTheThreads) {
   const Study study = study_of("[[axes]]\nname = \"threads\"\nkey = \"threads\"\nvalues = [1, 2]\n");
   EXPECT_NE(study.runs[0].resolved.find("threads = 1"), std::string::npos);
