@@ -22,6 +22,7 @@ RunRecord record() {
   r.particles = 1000;
   r.particle_updates = 1234000;
   r.peak_memory_bytes = 5'000'000'000;
+  r.solver_memory_bytes = 250'000;
   r.mass_error = 1e-16;
   r.momentum_error = std::nan("");
   r.interface_impulse_error = 2e-9;
