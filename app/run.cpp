@@ -116,6 +116,22 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   return record;
 }
 
+/// Which particle is the fastest, and where; nothing where there are no particles.
+template <class Particles>
+std::string fastest_of(const Particles& particles) {
+  const std::vector<double> v = particles.field("velocity"), x = particles.field("position"), id = particles.field("id");
+  const auto square = [&](std::size_t i) {
+    return v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2];
+  };
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < id.size(); ++k)
+    if (square(k) > square(i)) i = k;
+  char text[200];
+  std::snprintf(text, sizeof text, "; the fastest is particle %.0f with %.3g m/s at (%.5g, %.5g, %.5g) m", id[i],
+                std::sqrt(square(i)), x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+  return text;
+}
+
 /// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
 /// time: what goes off within a step is caught there, and named more closely.
 void expect_energy(const Simulation& simulation, bool& was_off) {
@@ -124,11 +140,15 @@ void expect_energy(const Simulation& simulation, bool& was_off) {
   const bool off = std::abs(error) > most, again = off && was_off;
   was_off = off;
   if (!again) return;
-  char text[300];
+  char text[500];
   std::snprintf(text, sizeof text,
-                "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv); a smaller scheme.courant (or "
+                "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv)%s; a smaller scheme.courant (or "
                 "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
-                simulation.time(), 100.0 * error);
+                simulation.time(), 100.0 * error,
+                (simulation.fluid()    ? fastest_of(*simulation.fluid())
+                 : simulation.solids() ? fastest_of(*simulation.solids())
+                                       : std::string())
+                    .c_str());
   throw NumericalStop(text);
 }
 
@@ -212,12 +232,14 @@ int run(const scene::Scene& given, const RunOptions& options) {
     }
   };
 
-  bool energy_off = false;
+  bool energy_off = false, step_done = true;
   try {
     if (simulation.time() > 0) probes.sample_before(simulation, 0.0);
     observe();
     while (simulation.time() < scene.end_time * (1 - 1e-12)) {
+      step_done = false;
       simulation.advance(std::min(scene.end_time, next_snapshot));
+      step_done = true;
       observe();
       expect_energy(simulation, energy_off);
       progress.report(simulation);
@@ -227,9 +249,17 @@ int run(const scene::Scene& given, const RunOptions& options) {
       }
     }
   } catch (const NumericalStop& stop) {
-    const NumericalStop full(std::string(stop.what()) + "; the last step was set by " + simulation.last_step());
-    finish("stopped", full.what());
-    throw full;
+    std::string text = std::string(stop.what()) + "; the last step was set by " + simulation.last_step();
+    try {
+      char where[80];
+      std::snprintf(where, sizeof where, "; fields/ ends with the %s, at %.6g s",
+                    step_done ? "state at the stop" : "last sound state", simulation.time());
+      if (snapshots.write_at_stop(simulation)) text += where;
+    } catch (const FileError& error) {
+      text += std::string("; its state could not be written: ") + error.what();
+    }
+    finish("stopped", text);
+    throw NumericalStop(text);
   }
   finish("done", "");
   return exit_done;

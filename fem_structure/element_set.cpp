@@ -73,10 +73,12 @@ long ElementSet::advance(std::span<const Vec3> x, std::span<const Vec3> u, doubl
   return failed == n ? -1 : failed;
 }
 
-void ElementSet::put_forces(std::size_t c, const CellVectors& force) {
+bool ElementSet::put_forces(std::size_t c, const CellVectors& force) {
   double* out = &corner_force_[24 * c];
+  double sum = 0.0;
   for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i) out[3 * node + i] = force[i][node];
+    for (int i = 0; i < 3; ++i) sum += std::abs(out[3 * node + i] = force[i][node]);
+  return std::isfinite(sum);
 }
 
 void ElementSet::gather(const std::vector<double>& corner_force, std::span<Vec3> force) const {

@@ -75,7 +75,8 @@ class ElementSet {
   /// Stable step after a step of strain `most_strain`: the highest frequency is found anew when the cell has changed,
   /// otherwise enlarged by what the strain since may have done.
   void follow_frequency(std::size_t cell, const CellVectors& x, double most_strain, double sound, double bulk);
-  void put_forces(std::size_t cell, const CellVectors& force);
+  /// False where a force is not finite.
+  bool put_forces(std::size_t cell, const CellVectors& force);
   std::size_t shared_memory_bytes() const;
 
   materials::Solid material_;

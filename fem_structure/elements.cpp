@@ -211,8 +211,7 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
     for (int q = 0; q < 8; ++q) points.deviator[k][q] -= total_pressure;
   double force[3][8];
   spread(points.deviator, inverse, weight, reference_, force);
-  put_forces(c, force);
-  return std::isfinite(total_pressure);
+  return put_forces(c, force);
 }
 
 void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const {

@@ -536,8 +536,7 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
   CellVectors local, force;
   spread(now, end, stress, local);
   turn_out(local, force);
-  put_forces(c, force);
-  return std::isfinite(bulk + viscous_pressure_[c] + residual_[c]);
+  return put_forces(c, force) && std::isfinite(bulk + residual_[c]);
 }
 
 void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVectors& u_cell, Moduli moduli,

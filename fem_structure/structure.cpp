@@ -278,10 +278,10 @@ struct Structure::Implementation {
     }
     external_work += load_work();
     const long failed = elements->advance(position, increment, dt, internal_force);
+    last_step = dt;
+    if (failed >= 0) take_back_and_stop(failed, dt);
     time += dt;
     ++steps;
-    last_step = dt;
-    if (failed >= 0) stop(failed, "inverted, or holds a value that is not finite");
     find_load_force();
     external_work += load_work();
     for (int node : wet_nodes) external_work += impulse_force[node].dot(increment[node]);
@@ -302,13 +302,23 @@ struct Structure::Implementation {
     return "cell " + std::to_string(cell) + " of '" + settings.name + "', reference position " + written(center(cell));
   }
 
-  [[noreturn]] void stop(std::size_t cell, const std::string& what) const {
+  std::string description_of(std::size_t cell, const std::string& what) const {
     std::ostringstream text;
     text << "structure '" << settings.name << "', step " << steps << ", time " << time << " s: cell " << cell
          << ", reference position " << written(center(cell)) << ", now near " << written(position[grid.cells[cell][0]])
          << ", " << what << "; the step of " << last_step << " s was set by " << owner()
          << "; refine the mesh there, or lower courant (" << settings.courant << ")";
-    throw NumericalStop(text.str());
+    return text.str();
+  }
+
+  /// Nodes go back to where the step began; a cell that has turned inside out has kept its stresses of then.
+  [[noreturn]] void take_back_and_stop(std::size_t cell, double dt) {
+    const std::string what = description_of(cell, "inverted, or holds a value that is not finite");
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      position[i] -= increment[i];
+      velocity[i] -= 0.5 * dt * acceleration[i];
+    }
+    throw NumericalStop(what);
   }
 
   double stable_step() const { return settings.courant * elements->critical_step(); }
@@ -331,7 +341,8 @@ struct Structure::Implementation {
     for (;;) {
       const double longest = stable_step();
       if (!(longest > 1e-4 * settings.courant * first_critical_step))
-        stop(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one");
+        throw NumericalStop(
+            description_of(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one"));
       const double left = t_end - time;
       const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-12)));
       step(left / count);

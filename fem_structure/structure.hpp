@@ -67,7 +67,8 @@ class Structure {
 
   /// Advances to time t_end in equal steps (more, and shorter, where the mesh tightens on the way), none longer than stable_step(), while the wet nodes receive exactly
   /// `impulse` [N s] each (in wet_surface() order; may be empty), spread evenly over the interval. Throws NumericalStop
-  /// (core/errors.hpp) naming step, time, cell and position when an element inverts or a value is not finite.
+  /// (core/errors.hpp) naming step, time, cell and position when an element inverts or a value is not finite; nodes then
+  /// stand where the failed step began.
   void advance(double t_end, std::span<const Vec3> impulse);
 
   Energies energies() const;

@@ -93,7 +93,8 @@ class Fluid {
 
   /// Valid from construction on: rates are evaluated at once.
   StepLimit step_limit();
-  /// Advances by dt [s]. Throws NumericalStop when a value is no longer finite.
+  /// Advances by dt [s]. Throws NumericalStop when the state that results, or its rates, are not finite or beyond all physics.
+  /// What is left then is the last sound state, before the step or in its middle (see time()), for output.
   void step(double dt);
 
   Ledger ledger() const;

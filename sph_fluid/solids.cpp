@@ -154,12 +154,13 @@ void Solids::Implementation::step(double dt) {
     for (std::uint32_t i = 0; i < n; ++i) particles.x[i] += dt * particles.v[i];
   }
   find_forces(dt);
+  find_acceleration();
+  expect_sound(dt);
   time += dt;
   last_step = dt;
   ++steps;
   {
     const auto timer = timers.measure("solid integration");
-    find_acceleration();
     external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) {
       return impulse_force[i].dot(particles.v[i]);
     });
@@ -167,10 +168,24 @@ void Solids::Implementation::step(double dt) {
     for (std::uint32_t i = 0; i < n; ++i) particles.v[i] += 0.5 * dt * acceleration[i];
   }
   integrator_held = held_back(dt);
-  const std::uint32_t limit = fastest();
-  if (!(particles.rate[limit] < 1e4 / first_step))
-    stop(limit, std::isfinite(particles.rate[limit]) ? "is crushed: its stable step has fallen below 1e-4 of the first one"
-                                                     : "holds a value that is not finite");
+}
+
+void Solids::Implementation::expect_sound(double dt) {
+  std::uint32_t worst = fastest();
+  const char* what = "is crushed: its stable step has fallen below 1e-4 of the first one";
+  bool good = particles.rate[worst] < 1e4 / first_step;
+  for (std::uint32_t i = 0; i < particles.size(); ++i)
+    if (!acceleration[i].allFinite() || !std::isfinite(particles.rate[i])) {
+      worst = i;
+      what = "holds a value that is not finite";
+      good = false;
+      break;
+    }
+  if (good) return;
+  const std::string text = description_of(worst, what, dt);
+  for (std::uint32_t i = 0; i < particles.size(); ++i) particles.x[i] -= 0.5 * dt * particles.v[i];
+  time += 0.5 * dt;
+  throw NumericalStop(text);
 }
 
 /// A particle that would come nearer to a plane than half a spacing stops there; what that takes of the kinetic energy is work
@@ -232,14 +247,14 @@ const SolidGroup& Solids::Implementation::group_of(std::uint32_t particle) const
   return groups.back();
 }
 
-void Solids::Implementation::stop(std::uint32_t i, const char* what) const {
+std::string Solids::Implementation::description_of(std::uint32_t i, const char* what, double dt) const {
   std::ostringstream text;
   const Vec3 &x = particles.x[i], &start = particles.start[i];
   text << "solid '" << group_of(i).body->name << "', step " << steps << ", time " << time << " s: particle " << i
        << ", from (" << start[0] << ", " << start[1] << ", " << start[2] << ") m, now at (" << x[0] << ", " << x[1] << ", "
-       << x[2] << ") m, " << what << "; the last step was " << last_step << " s; a smaller solid_scheme.courant ("
+       << x[2] << ") m, " << what << "; the step was " << dt << " s; a smaller solid_scheme.courant ("
        << settings.solid_numerics.courant << "), or description = \"updated_lagrangian\" for a body that is torn, may help";
-  throw NumericalStop(text.str());
+  return text.str();
 }
 
 // ---- The public face ------------------------------------------------------------------------------------------------

@@ -56,7 +56,8 @@ class Solids {
   std::string stable_step_owner() const;
 
   /// Advances to t_end in equal steps, none longer than stable_step(), while the particles receive exactly `impulse` [N s]
-  /// each (may be empty), spread evenly. Throws NumericalStop naming step, time, body, particle and position.
+  /// each (may be empty), spread evenly. Throws NumericalStop naming step, time, body, particle and position; positions and
+  /// velocities are then finite still, those of the middle of the failed step.
   void advance(double t_end, std::span<const Vec3> impulse = {});
   /// Changes velocities by impulse/mass, at once.
   void kick(std::span<const Vec3> impulse);

@@ -51,7 +51,10 @@ struct Solids::Implementation {
 
   const SolidGroup& group_of(std::uint32_t particle) const;
   std::uint32_t fastest() const;                 // the particle that limits the step
-  [[noreturn]] void stop(std::uint32_t particle, const char* what) const;
+  /// Throws NumericalStop where a step's new stresses or forces cannot be gone on with. Positions and velocities are left in
+  /// the middle of the step, between its two kicks, and finite; stresses are those that went wrong.
+  void expect_sound(double dt);
+  std::string description_of(std::uint32_t particle, const char* what, double dt) const;
 };
 
 }  // namespace undex::sph

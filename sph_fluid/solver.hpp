@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Group {
   std::vector<double> lighting;          // burning charges only, by id - begin [s]
   CellList cells;
 };
+
+/// Speed at which a run has lost its physics: a hundred times what any explosive does [m/s].
+inline constexpr double fastest = 1e7;
 
 /// A box around the particles that are no longer in their first state of rest; it only grows.
 struct Disturbed {
@@ -71,6 +75,7 @@ struct Fluid::Implementation {
   long steps = 0;
   bool has_energy = false;
   bool evaluated = false;
+  bool sound = true;                             // is the last evaluation finite, and slower than `fastest`?
   double dissipated = 0, wall_work = 0;
   double wall_power = 0;                         // work on moving walls at the last evaluation [W]
   long long interaction_sum = 0;
@@ -104,9 +109,12 @@ struct Fluid::Implementation {
   void step(double dt);
   /// Rates at the present positions, with the state predicted for the end of a step (see equation_of_state).
   void evaluate(double half, double bend);
-  /// First half of the kick, drift, and the moving walls' half of the impulse.
-  void kick_and_drift(double dt);
-  void half_kick(double dt);
+  /// Half of the kick, with the moving walls' half of the impulse. False: a particle is beyond `fastest` now.
+  bool half_kick(double dt);
+  void drift(double dt);
+  /// After an evaluation that went wrong: back by half of the drift, to the state between the two kicks. All of it is
+  /// finite, the ledger holds for it, and its pressures are evaluated; it has no rates.
+  void stand_half_way(double dt);
   /// The coefficients of viscosity of a scheme with a switch over dt, their rates held (switch_scheme.hpp).
   void advance_viscosity(double dt);
   /// Moves particles down the gradient of their concentration (shifting.hpp); no other part of their state changes.
@@ -134,7 +142,8 @@ struct Fluid::Implementation {
   StepLimit step_limit();
   const Body& body_of(std::uint32_t i) const;
   const char* remedy() const;
-  [[noreturn]] void stop_at_bad_value() const;
+  /// Why the run cannot go on: which particle, where, and a remedy.
+  std::string what_is_wrong() const;
   Ledger ledger() const;
   /// Calls visit(index, distance) for every particle, images included, within `radius_over_h` of its own h of the point.
   template <class Visit>

@@ -30,6 +30,7 @@ double barotropic_energy(const materials::FluidLaw& law, double rho) {
 
 StepLimit Fluid::Implementation::step_limit() {
   if (!evaluated) evaluate(0.0, 0.0);
+  if (!sound) throw NumericalStop(what_is_wrong());  // as the scene was given: a step does not end so
   StepLimit limit;
   const Numerics& numerics = settings.numerics;
   limit.step = std::numeric_limits<double>::infinity();
@@ -38,15 +39,12 @@ StepLimit Fluid::Implementation::step_limit() {
   const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
   const double inverse_alpha = 1.0 / numerics.alpha;
   std::uint32_t worst = 0;
-  constexpr double fastest = 1e7;  // [m/s]; a hundred times what any explosive does: the run has lost its physics
   const char* criterion = "Courant";
-  bool finite = true;
 #pragma omp parallel
   {
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t where = 0;
     const char* by = criterion;
-    bool ok = true;
 #pragma omp for schedule(static)
     for (std::uint32_t i = 0; i < particles.size(); ++i) {
       const FluidRow& q = particles.predicted[i];
@@ -57,7 +55,6 @@ StepLimit Fluid::Implementation::step_limit() {
       const double courant = numerics.courant * q.h / signal;
       const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
       const double squeeze = 0.2 / (std::abs(rate.compression) + 1e-300);
-      ok = ok && std::isfinite(a2) && signal < fastest;
       const double least = std::min({courant, push, squeeze});
       if (least < best) {
         best = least;
@@ -67,7 +64,6 @@ StepLimit Fluid::Implementation::step_limit() {
     }
 #pragma omp critical
     {
-      finite = finite && ok;
       // The particle's place breaks ties, so that the answer does not depend on who comes first.
       if (best < limit.step || (best == limit.step && where < worst)) {
         limit.step = best;
@@ -76,7 +72,6 @@ StepLimit Fluid::Implementation::step_limit() {
       }
     }
   }
-  if (!finite) stop_at_bad_value();
   limit.criterion = criterion;
   limit.particle = particles.id[worst];
   limit.position = {particles.x[worst], particles.y[worst], particles.z[worst]};
@@ -100,22 +95,22 @@ const char* Fluid::Implementation::remedy() const {
                                               : "a smaller scheme.courant";
 }
 
-void Fluid::Implementation::stop_at_bad_value() const {
+std::string Fluid::Implementation::what_is_wrong() const {
   const Particles& p = particles;
+  char text[400];
   for (std::uint32_t i = 0; i < p.size(); ++i) {
     const std::pair<const char*, double> values[] = {
         {"position", p.x[i] + p.y[i] + p.z[i]}, {"velocity", p.vx[i] + p.vy[i] + p.vz[i]}, {"density", p.rho[i]},
         {"acceleration", p.rate[i].fx + p.rate[i].fy + p.rate[i].fz}, {"pressure", p.predicted[i].p},
-        {"sound speed", p.predicted[i].c}};
+        {"sound speed", p.predicted[i].c}, {"heating", p.rate[i].heat}};
     for (const auto& [name, value] : values)
       if (!std::isfinite(value)) {
-        char text[400];
         std::snprintf(text, sizeof text,
                       "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
                       "%s may hold it",
                       steps, time, name, p.id[i], body_of(i).name.c_str(), p.x[i], p.y[i], p.z[i],
                       remedy());
-        throw NumericalStop(text);
+        return text;
       }
   }
   const auto speed = [&](std::uint32_t i) {
@@ -124,12 +119,11 @@ void Fluid::Implementation::stop_at_bad_value() const {
   std::uint32_t i = 0;
   for (std::uint32_t k = 0; k < p.size(); ++k)
     if (speed(k) > speed(i)) i = k;
-  char text[400];
   std::snprintf(text, sizeof text,
                 "step %ld, time %.6g s: speeds beyond all physics; the fastest is particle %u (body '%s') with %.3g m/s at "
                 "(%.5g, %.5g, %.5g) m; %s may hold it",
                 steps, time, p.id[i], body_of(i).name.c_str(), speed(i), p.x[i], p.y[i], p.z[i], remedy());
-  throw NumericalStop(text);
+  return text;
 }
 
 Ledger Fluid::Implementation::ledger() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/solver.hpp"
 #include "sph_fluid/sums.hpp"
@@ -22,9 +23,22 @@ double advanced_density(double rho, double rate_times_step) {
 
 void Fluid::Implementation::step(double dt) {
   if (!evaluated) evaluate(0.0, 0.0);
-  kick_and_drift(dt);
+  {
+    const auto timer = timers.measure("integration");
+    if (!half_kick(dt)) {
+      const std::string what = what_is_wrong();
+      half_kick(-dt);
+      throw NumericalStop(what);
+    }
+    drift(dt);
+  }
   evaluation_time = time + dt;
   evaluate(0.5 * dt, steps > 0 ? dt * std::min(2.0, dt / last_step) / 6.0 : 0.0);
+  if (!sound) {
+    const std::string what = what_is_wrong();
+    stand_half_way(dt);
+    throw NumericalStop(what);
+  }
   {
     const auto timer = timers.measure("integration");
     half_kick(dt);
@@ -48,9 +62,7 @@ void Fluid::Implementation::evaluate(double half, double bend) {
 
 // ---- The passes of a step -------------------------------------------------------------------------------------------
 
-void Fluid::Implementation::kick_and_drift(double dt) {
-  const auto timer = timers.measure("integration");
-  half_kick(dt);
+void Fluid::Implementation::drift(double dt) {
   Particles& p = particles;
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -81,17 +93,19 @@ void Fluid::Implementation::kick_and_drift(double dt) {
   }
 }
 
-void Fluid::Implementation::half_kick(double dt) {
+bool Fluid::Implementation::half_kick(double dt) {
   const double half = 0.5 * dt;
   Particles& p = particles;
   long clamped = 0;
-#pragma omp parallel for schedule(static) reduction(+ : clamped)
+  double largest_square = 0;
+#pragma omp parallel for schedule(static) reduction(+ : clamped) reduction(max : largest_square)
   for (std::size_t i = 0; i < p.size(); ++i) {
     const SumRow& rate = p.rate[i];
     if (has_energy) p.energy[i] += half * rate.heat;
     p.vx[i] += half * rate.fx;
     p.vy[i] += half * rate.fy;
     p.vz[i] += half * rate.fz;
+    largest_square = std::max(largest_square, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
     clamped += std::abs(half * rate.compression) > 1.0;
     p.rho[i] = advanced_density(p.rho[i], half * rate.compression);
   }
@@ -105,6 +119,16 @@ void Fluid::Implementation::half_kick(double dt) {
   for (std::size_t w = 0; w < moving.size(); ++w)
     for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += half * moving_force[w][k];
   wall_work += half * wall_power;
+  return largest_square < fastest * fastest;
+}
+
+void Fluid::Implementation::stand_half_way(double dt) {
+  drift(-0.5 * dt);
+  time += 0.5 * dt;
+  evaluation_time = time;
+  std::fill(particles.rate.begin(), particles.rate.end(), SumRow{});
+  sort();
+  equation_of_state(0.0, 0.0);
 }
 
 void Fluid::Implementation::advance_viscosity(double dt) {
@@ -150,7 +174,7 @@ void Fluid::Implementation::sort() {
       group.cells.build(particles.x.data(), particles.y.data(), particles.z.data(), group.begin, group.end,
                         2.0 * group.spacing * (group.body->variable_h ? group.h_max / group.h0 : 1.0));
     } catch (const std::domain_error&) {
-      stop_at_bad_value();
+      throw NumericalStop(what_is_wrong());
     }
     particles.permute(group.begin, group.cells.order());
   }
@@ -352,9 +376,11 @@ void Fluid::Implementation::finish_rates() {
   const auto timer = timers.measure("integration");
   Particles& p = particles;
   const bool partly = !everywhere;
+  sound = true;
   for (const Group& group : groups) {
     const bool with_energy = materials::uses_energy(group.body->material.law);
-#pragma omp parallel for schedule(static)
+    bool ok = true;
+#pragma omp parallel for schedule(static) reduction(&& : ok)
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
       const FluidRow& q = p.predicted[i];
       SumRow& rate = p.rate[i];
@@ -364,9 +390,12 @@ void Fluid::Implementation::finish_rates() {
       rate.fz *= specific;
       rate.heat *= specific;
       if (with_energy) rate.heat += q.p * specific * rate.compression;
+      ok = ok && std::isfinite(q.p + rate.fx + rate.fy + rate.fz + rate.heat + rate.compression);
+      ok = ok && q.c + rate.closing < fastest;
       // Beyond reach of any signal only some of the pairs were worked on, and rest is rest.
       if (partly && !disturbed.within({p.x[i], p.y[i], p.z[i]}, reach)) rate = SumRow{};
     }
+    sound = sound && ok;
   }
 }
 

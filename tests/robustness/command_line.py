@@ -8,6 +8,7 @@ Exit codes: 0 done, 1 internal or I/O, 2 usage or scene, 3 stopped by the numeri
 """
 import csv
 import json
+import math
 import os
 import pathlib
 import pty
@@ -364,6 +365,45 @@ class Numerics(Case):
         """Too large a step for a scheme that dissipates little: every value stays finite, and the result means nothing."""
         self.stopped("rigid_cylinder", {**LONG, "scheme.courant": 1.0, "resolution.spacing": 0.006},
                      r"time [\d.e-]+ s: the energy balance is off by \d+ %.*scheme.courant")
+
+    @unittest.skipUnless(runs.h5py, "no h5py")
+    def test_last_state_is_on_disk(self):
+        """A step far too long: the last state before it went wrong is a snapshot, though the scene asks for none, and no value
+        that is not finite is in any file."""
+        coarse = {"resolution.spacing": 0.006, "start.kind": "plain", "output.field_times": "[]", "scheme.fixed_step": 1e-4}
+        for scene, changes in (("rigid_cylinder", {}), ("al_tube_fem", {"structure.cells": "{through = 2, around = 24, along = 12}"}),
+                               ("al_tube_sph", {"solids.tube.spacing": 0.003175}),
+                               ("rigid_cylinder", {"scheme.name": "monaghan", "scheme.kernel": "gaussian", "scheme.fixed_step": 1e-5})):
+            with self.subTest(scene=scene, **changes):
+                folder = self.here / "out"
+                finished = self.undex("run", CASES / scene, "-o", folder, "-q", "--force", *runs.overrides({**coarse, **changes}))
+                self.ends(finished, 3, r"time [\d.e-]+ s: .*particle \d+ .*\([-\d.e+]+, [-\d.e+]+, [-\d.e+]+\) m.*fields/ ends with")
+                record = runs.summary(folder)
+                for name, table in runs.histories(folder).items():
+                    self.assertTrue(all(math.isfinite(value) for row in table.rows for value in row), name)
+                for kind in ["particles"] + ["solids"] * (scene == "al_tube_sph"):
+                    (time, fields), = runs.particle_steps(folder, kind)
+                    self.assertLessEqual(abs(time - record["time_s"]), 0.5001e-4)
+                    self.assertEqual(fields["not_finite"].max(), 0)
+                    for name, values in fields.items():
+                        self.assertTrue(all(math.isfinite(value) for value in values.tolist()), name)
+                if scene == "al_tube_fem":
+                    (time, path), = runs.structure_steps(folder)
+                    for name, values in runs.datasets(path).items():
+                        self.assertTrue(all(math.isfinite(value) for value in values.ravel().tolist()), name)
+
+    @unittest.skipUnless(runs.h5py, "no h5py")
+    def test_structure_is_left_as_the_step_found_it(self):
+        self.stopped("tube_pulse", {"structure.cells": "{through = 2, around = 16, along = 8}", "output.history_interval": 0,
+                                    "output.field_interval": 0, "structure.loads.0.pressure": "[0, 3e12, 3e12, 0]"},
+                     r"cell \d+.*fields/ ends with the last sound state")
+        table = runs.histories(self.here / "out")["history/midline_outer.csv"]
+        (time, path), = runs.structure_steps(self.here / "out")
+        self.assertAlmostEqual(time / table.column("time")[-1], 1.0, places=7)
+        moved = runs.datasets(path)["VTKHDF/PointData/displacement"]
+        self.assertTrue(math.isfinite(float(abs(moved).max())))
+        nearest = abs(moved[:, 0] - table.column("displacement_x")[-1]).min()
+        self.assertLess(nearest, 1e-6 * abs(table.column("displacement_x")[-1]) + 1e-12)
 
     def test_remedy_for_a_fixed_step(self):
         finished = self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q",
