@@ -341,7 +341,7 @@ TEST(NumericalStops, LeaveTheLastSoundState) {
     settings.bodies[0].velocity = {speed, 0, 0};
     settings.bodies[1].velocity = {-speed, 0, 0};
     std::set<int> outcomes;
-    for (double dt = 1e-10; dt < 1e3; dt *= 1.5) {
+    for (double dt = 1e-10; dt < 1e-3; dt *= 1.5) {
       Fluid fluid(settings);
       fluid.step(1e-13);
       outcomes.insert(outcome_of_step(fluid, dt));
