@@ -2,7 +2,8 @@
 """What the runs of this folder's scenes came to, against their criteria.
 
     measure.py PROGRAM OUT [SCENE ...]      runs the scenes (default: all) with the default scheme and with the paper's into
-                                            OUT/<scene>_r and OUT/<scene>_m, unless they are there, and prints a line each
+                                            OUT/<scene>_r and OUT/<scene>_m, unless they are there, and prints a line for each
+                                            criterion; OUT "-" is a temporary folder
 Exit code 1 where a criterion is missed. Needs NumPy and h5py.
 """
 import csv
@@ -10,9 +11,13 @@ import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 
-import h5py
-import numpy as np
+try:
+    import h5py
+    import numpy as np
+except ImportError:
+    sys.exit(77)  # ctest: skipped
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAPER = ["scheme.name=monaghan", "scheme.kernel=gaussian", "scheme.alpha=1", "scheme.beta=10"]
@@ -128,28 +133,26 @@ def charge(run):
 
 
 def closes(run, centre, wanted, tolerance):
-    """The void is closed when its volume, missing particles counted, is a tenth: no particle-free ball of R/3 round its middle."""
-    radius, previous = 0.01, None
+    """A void is closed when the water that meets in it has its largest mean pressure within the first radius of its middle."""
+    best = (0.0, 0.0)
     for time, f in run.snapshots():
-        r = np.sqrt((f["x"] - centre) ** 2 + f["y"] ** 2 + f["z"] ** 2)
-        least = r.min() - 0.00125
-        if previous and least < radius / 3:
-            t0, l0 = previous
-            at = t0 + (l0 - radius / 3) / (l0 - least) * (time - t0)
-            # From R/3 to nothing an empty cavity takes 1 % of Rayleigh's time.
-            return [(f"closed within {100 * tolerance:.0f} % of {wanted * 1e6:.1f} us", abs(at * 1.01 / wanted - 1) < tolerance,
-                     f"{at * 1.01e6:.1f} us")]
-        previous = time, least
-    return [(f"closed within {100 * tolerance:.0f} % of {wanted * 1e6:.1f} us", False, "never")]
+        inside = (f["x"] - centre) ** 2 + f["y"] ** 2 + f["z"] ** 2 < 0.01 ** 2
+        if inside.sum() > 5:
+            best = max(best, (f["pressure"][inside].mean(), time))
+    pressure, time = best
+    end = run.summary["time_s"]
+    return [(f"closed within {100 * tolerance:.0f} % of {wanted * 1e6:.1f} us", abs(time / wanted - 1) < tolerance and time < 0.99 * end,
+             f"{time * 1e6:.0f} us, mean pressure there {pressure / 1e6:.0f} MPa")]
 
 
-def quiescent(run):
+def quiescent(run, speed_limit=1.5, pressure_limit=0.05):
     found = []
     for time, f in run.snapshots():
         speed = np.sqrt(sum(f[f"velocity_{a}"] ** 2 for a in range(3)))
-        found.append((f"speed at {time * 1e3:.1f} ms below 1e-3 of the sound's", speed.max() < 1.5, f"{speed.max():.2g} m/s"))
+        found.append((f"speed at {time * 1e3:.1f} ms below {speed_limit:g} m/s", speed.max() < speed_limit, f"{speed.max():.2g} m/s"))
         off = np.abs(f["pressure"] / 10e6 - 1)
-        found.append((f"pressure at {time * 1e3:.1f} ms within 5 %", off.max() < 0.05, f"{off.max():.2g}"))
+        found.append((f"pressure at {time * 1e3:.1f} ms within a share of {pressure_limit:g}", off.max() < pressure_limit,
+                      f"{off.max():.2g}, mean {np.mean(f['pressure']) / 10e6 - 1:+.2g}"))
     return found
 
 
@@ -180,6 +183,7 @@ CASES = {
     # Rattray 1951 (recalled): the time is longer by 0.205 R/d beside a wall at the distance d of the centre.
     "cavity_at_wall": lambda run, get: closes(run, 0.01, 1.205 * rayleigh, 0.1),
     "quiescent_box": lambda run, get: quiescent(run),
+    "quiescent_box_no_slip": lambda run, get: quiescent(run, 1e-3, 1e-5),   # to the round-off of single precision
     "quiescent_rings": lambda run, get: quiescent(run),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
     "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall of dummies and plane"),
@@ -187,9 +191,16 @@ CASES = {
 
 
 def main():
-    program, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    if sys.argv[2] != "-":
+        sys.exit(measure(sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]))
+    with tempfile.TemporaryDirectory(prefix="undex_hard_cases_") as folder:
+        sys.exit(measure(sys.argv[1], pathlib.Path(folder), sys.argv[3:]))
+
+
+def measure(program, out, scenes):
+    """1 where a criterion is missed, else 0."""
     failed = False
-    for scene in sys.argv[3:] or CASES:
+    for scene in scenes or CASES:
         for suffix, changes in (("r", []), ("m", PAPER)):
             def get(name):
                 folder = out / f"{name}_{suffix}"
@@ -209,7 +220,7 @@ def main():
             for what, passed, value in checks:
                 failed = failed or not passed
                 print(f"    {'pass' if passed else 'FAIL'}  {what}: {value}")
-    sys.exit(failed)
+    return int(failed)
 
 
 if __name__ == "__main__":
