@@ -168,6 +168,9 @@ void print_cost(const output::RunRecord& record) {
     std::printf(", interface energy error %.2e, impulse error %.1e", *record.interface_energy_error,
                 record.interface_impulse_error.value_or(0.0));
   std::printf("\n");
+  if (std::abs(record.energy_error) > 0.01)
+    std::printf("note: the energy balance is off by %.1f %%; compare with a smaller step (scheme.courant, structure.courant, "
+                "solid_scheme.courant)\n", 100.0 * record.energy_error);
 }
 
 }  // namespace
