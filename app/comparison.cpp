@@ -1,7 +1,9 @@
 #include "app/comparison.hpp"
 
 #include <cmath>
+#include <cstdio>
 
+#include "app/profile.hpp"
 #include "output/comparison_table.hpp"
 #include "output/metrics.hpp"
 
@@ -96,7 +98,9 @@ output::NamedNumbers taylor_bar(const scene::Scene& scene, const Simulation& sim
 
 }  // namespace
 
-output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes) {
+output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes,
+                             const std::filesystem::path& folder) {
+  if (scene.comparison.kind == "profile") return compare_profile(scene, simulation, folder);
   if (scene.comparison.kind == "rigid_cylinder") return rigid_cylinder(scene, probes);
   if (scene.comparison.kind == "tube") return tube(scene, probes);
   if (scene.comparison.kind == "taylor_bar") return taylor_bar(scene, simulation);
@@ -104,6 +108,15 @@ output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simula
 }
 
 std::string comparison_table(const scene::Scene& scene, const output::NamedNumbers& metrics) {
+  if (scene.comparison.kind == "profile") {
+    std::string text;
+    char line[120];
+    for (const auto& [name, value] : metrics) {
+      std::snprintf(line, sizeof line, "%-34s %.5g\n", name.c_str(), value);
+      text += line;
+    }
+    return text;
+  }
   if (metrics.empty() || scene.comparison.reference.empty()) return "";
   return output::format_comparison(metrics, output::read_reference_table(reference_path(scene)));
 }

@@ -1,6 +1,7 @@
 // The named results of a run, beside what others got.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "app/probes.hpp"
@@ -10,10 +11,12 @@
 
 namespace undex::app {
 
-/// Metrics of the scene's comparison (none: empty), from its probes or the body's present shape; NaN for what did not happen or was not reached.
-output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes);
+/// Metrics of the scene's comparison (none: empty), from its probes, the body's present shape or the particles; NaN for what
+/// did not happen or was not reached. A profile is written into `folder` as well.
+output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes,
+                             const std::filesystem::path& folder);
 
-/// The same beside the reference table, as text; empty where the scene names no reference.
+/// The same beside the reference table, as text (a profile's alone); empty where the scene names no reference.
 std::string comparison_table(const scene::Scene& scene, const output::NamedNumbers& metrics);
 
 }  // namespace undex::app

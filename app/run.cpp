@@ -206,7 +206,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
     record.status = status;
     record.message = message;
     try {
-      record.metrics = compare(scene, simulation, probes);
+      record.metrics = compare(scene, simulation, probes, folder);
     } catch (const std::invalid_argument&) {
       // A history that ends in values that are no numbers has no results; the record of the stop matters more.
     }

@@ -52,18 +52,6 @@ double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, con
   return distance;
 }
 
-double start_energy(const sph::Body& body) {
-  if (body.energy) return *body.energy;
-  if (const auto* jwl = std::get_if<materials::Jwl>(&body.material.law)) return jwl->parameters().E0;
-  return 0.0;
-}
-
-double start_density(const sph::Body& body) {
-  if (body.density) return *body.density;
-  if (body.pressure) return materials::density_at(body.material.law, *body.pressure, start_energy(body));
-  return body.material.rho0;
-}
-
 exact::Layer layer_of(const sph::Body& body, double inner, double outer, double cell) {
   exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer};
   layer.cells = std::max(1, int(std::lround((outer - inner) / cell)));

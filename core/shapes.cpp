@@ -201,6 +201,14 @@ Bounds bounds(const Primitive& shape, int dimension) { return std::visit(Extent{
 
 Bounds bounds(const Shape& shape, int dimension) { return bounds(shape.base, dimension); }
 
+Vec3 middle(const Primitive& shape, int dimension) {
+  const Bounds box = bounds(shape, dimension);
+  Vec3 center = Vec3::Zero();
+  for (int a = 0; a < dimension; ++a)
+    if (box.high[a] < 1e200) center[a] = 0.5 * (box.low[a] + box.high[a]);
+  return center;
+}
+
 // Cells that the surface may cross are halved level by level. Each level gives an estimate with an error of second order
 // in the cell size (curvature of the surface, edges), so two levels are extrapolated; it ends when that has settled.
 double volume(const Shape& shape, const Bounds& given_window, int dimension) {

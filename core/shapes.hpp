@@ -54,6 +54,9 @@ double signed_distance(const Shape& shape, const Vec3& x, int dimension);
 Bounds bounds(const Primitive& shape, int dimension);
 Bounds bounds(const Shape& shape, int dimension);
 
+/// The middle of those bounds; 0 along axes without any.
+Vec3 middle(const Primitive& shape, int dimension);
+
 /// Volume [m^3] (area [m^2] in 2D, length [m] in 1D) of the part of `shape` inside `window`, to about 1e-5 relative,
 /// by recursive subdivision of the window with the signed distance.
 double volume(const Shape& shape, const Bounds& window, int dimension);

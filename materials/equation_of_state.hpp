@@ -12,11 +12,12 @@
 #include "materials/jwl.hpp"
 #include "materials/mie_gruneisen_water.hpp"
 #include "materials/pressure_sound.hpp"
+#include "materials/stiffened_gas.hpp"
 #include "materials/tait_water.hpp"
 
 namespace undex::materials {
 
-using FluidLaw = std::variant<TaitWater, BarotropicGas, IdealGas, Jwl, MieGruneisenWater>;
+using FluidLaw = std::variant<TaitWater, BarotropicGas, IdealGas, StiffenedGas, Jwl, MieGruneisenWater>;
 
 /// Does the law need an internal-energy field?
 bool uses_energy(const FluidLaw& law);

@@ -259,6 +259,11 @@ Table rows(const IdealGas& law) {
   return {{"rho0 [kg/m^3]", p.rho0}, {"gamma [-]", p.gamma}};
 }
 
+Table rows(const StiffenedGas& law) {
+  const StiffenedGas::Parameters& p = law.parameters();
+  return {{"rho0 [kg/m^3]", p.rho0}, {"gamma [-]", p.gamma}, {"p_inf [Pa]", p.p_inf}};
+}
+
 Table rows(const Jwl& law) {
   const Jwl::Parameters& p = law.parameters();
   return {{"rho0 [kg/m^3]", p.rho0}, {"A [Pa]", p.A},  {"B [Pa]", p.B},

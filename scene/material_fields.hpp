@@ -24,6 +24,10 @@ void each_field(materials::IdealGas::Parameters& p, F&& field) {
   field("rho0", p.rho0), field("gamma", p.gamma);
 }
 template <class F>
+void each_field(materials::StiffenedGas::Parameters& p, F&& field) {
+  field("rho0", p.rho0), field("gamma", p.gamma), field("p_inf", p.p_inf);
+}
+template <class F>
 void each_field(materials::Jwl::Parameters& p, F&& field) {
   field("rho0", p.rho0), field("A", p.A), field("B", p.B), field("R1", p.R1), field("R2", p.R2);
   field("omega", p.omega), field("E0", p.E0), field("D", p.D), field("p_cj", p.p_cj);
@@ -85,6 +89,7 @@ inline bool has_default(const materials::ZerilliArmstrong&, std::string_view key
 inline const char* law_name(const materials::TaitWater&) { return "tait"; }
 inline const char* law_name(const materials::BarotropicGas&) { return "barotropic_gas"; }
 inline const char* law_name(const materials::IdealGas&) { return "ideal_gas"; }
+inline const char* law_name(const materials::StiffenedGas&) { return "stiffened_gas"; }
 inline const char* law_name(const materials::Jwl&) { return "jwl"; }
 inline const char* law_name(const materials::MieGruneisenWater&) { return "mie_gruneisen"; }
 inline const char* law_name(const materials::LinearPressure&) { return "linear"; }

@@ -93,15 +93,6 @@ void read_scheme(const TableReader& top, Draft& draft) {
   table.read("h_high", numerics.h_high);
 }
 
-/// The middle of a shape: where a charge is lit unless the scene says otherwise.
-Vec3 middle(const Primitive& shape, int dimension) {
-  const Bounds box = bounds(shape, dimension);
-  Vec3 center = Vec3::Zero();
-  for (int a = 0; a < dimension; ++a)
-    if (box.high[a] < 1e200) center[a] = 0.5 * (box.low[a] + box.high[a]);
-  return center;
-}
-
 bool is_gas(const FluidLaw& law) {
   return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) ||
          std::holds_alternative<Jwl>(law);
@@ -119,7 +110,7 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   const Choices<bool> models{{"programmed", false}, {"instantaneous", true}};
   const double spacing = body.spacing.value_or(draft.scene.fluid.lattice.spacing);
   bool instantaneous = false;
-  Vec3 origin = middle(body.shape.base, table.dimension());
+  Vec3 origin = middle(body.shape.base, table.dimension());  // lit there unless the scene says otherwise
   double width = 1.5 * spacing;
   std::optional<double> speed, compression;
   if (const Node* node = table.find("burn"); node && node->kind == Node::Kind::text) {
@@ -176,12 +167,15 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   }
   table.read("spacing", body.spacing);
   table.read("velocity", body.velocity);
+  table.read("radial_velocity", body.radial_velocity);
   const bool pressure_good = table.read("pressure", body.pressure);
   table.read("density", body.density);
   table.read("energy", body.energy);
   body.variable_h = material_good && is_gas(body.material.law);
   table.read("variable_h", body.variable_h);
   if (!material_good) return body;
+  if (std::holds_alternative<StiffenedGas>(body.material.law))
+    table.need("energy", "law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)");
   read_burn(table, draft, body);
   if (pressure_good && !body.density) {
     const auto* products = std::get_if<Jwl>(&body.material.law);

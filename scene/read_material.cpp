@@ -15,7 +15,7 @@ namespace {
 
 using namespace materials;
 
-const std::vector<std::string> fluid_laws{"tait", "barotropic_gas", "ideal_gas", "jwl", "mie_gruneisen"};
+const std::vector<std::string> fluid_laws{"tait", "barotropic_gas", "ideal_gas", "stiffened_gas", "jwl", "mie_gruneisen"};
 constexpr int deepest_base = 8;
 
 std::vector<std::string> with_own(std::vector<std::string> names, const Draft& draft) {
@@ -147,6 +147,8 @@ bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int 
   else if (name == "barotropic_gas")
     good = rebuild<BarotropicGas>(table, parameters_of.operator()<BarotropicGas>({}), !base, into);
   else if (name == "ideal_gas") good = rebuild<IdealGas>(table, parameters_of.operator()<IdealGas>({}), !base, into);
+  else if (name == "stiffened_gas")
+    good = rebuild<StiffenedGas>(table, parameters_of.operator()<StiffenedGas>({}), !base, into);
   else good = rebuild<Jwl>(table, parameters_of.operator()<Jwl>({}), !base, into);
   return good && report.size() == before;
 }

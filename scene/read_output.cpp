@@ -85,6 +85,43 @@ void read_start(const TableReader& top, Draft& draft) {
     table.complain("kind", "start.kind = \"spherical\" needs dimension = 3");
 }
 
+/// Keys of kind = "profile", and whether the bodies pose such a problem.
+void read_profile(const TableReader& table, Draft& draft) {
+  Comparison& comparison = draft.scene.comparison;
+  if (comparison.kind != "profile") {
+    for (const char* key : {"solution", "window", "core"})
+      if (table.has(key))
+        table.complain(key, table.path_of(key) + " belongs to kind = \"profile\"; leave it out");
+    return;
+  }
+  std::vector<double> window;
+  if (table.read("window", window)) {
+    if (window.size() == 2 && window[0] < window[1]) {
+      comparison.window_low = window[0];
+      comparison.window_high = window[1];
+    } else {
+      table.complain("window", table.path_of("window") + " must be [least, largest] coordinate in m, the first below the second");
+    }
+  }
+  Solution solution{};
+  Choices<Solution> choices;
+  for (const Solution each : {Solution::riemann, Solution::taylor_wave, Solution::sedov, Solution::noh})
+    choices.emplace_back(solution_name(each), each);
+  if (!table.need("solution", "name the exact solution, e.g. solution = \"riemann\"") ||
+      !table.read_choice<Solution>("solution", solution, choices))
+    return;
+  comparison.solution = solution;
+  table.read("core", comparison.core);
+  if (comparison.core && solution != Solution::riemann)
+    table.complain("core", table.path_of("core") + " is for solution = \"riemann\": round flows have no axis; leave it out");
+  if (!draft.report.empty()) return;  // bodies that are not sound pose nothing
+  try {
+    profile_problem(draft.scene.fluid, solution);
+  } catch (const std::exception& misfit) {
+    table.complain("solution", table.path_of("solution") + ": " + misfit.what());
+  }
+}
+
 void read_comparison(const TableReader& top, Draft& draft) {
   Comparison& comparison = draft.scene.comparison;
   comparison.kind = "none";
@@ -93,7 +130,8 @@ void read_comparison(const TableReader& top, Draft& draft) {
   const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
   table.read_choice<std::string>("kind", comparison.kind,
                                  {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"},
-                                  {"taylor_bar", "taylor_bar"}});
+                                  {"taylor_bar", "taylor_bar"}, {"profile", "profile"}});
+  read_profile(table, draft);
   if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
     std::vector<std::string> names;
     for (const Probe& probe : draft.scene.probes) names.push_back(probe.name);
@@ -107,7 +145,7 @@ void read_comparison(const TableReader& top, Draft& draft) {
     if (!rod)
       table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
                              "of [[solids]], a cylinder; there is none");
-  } else if (comparison.kind != "none") {
+  } else if (comparison.kind != "none" && comparison.kind != "profile") {
     table.need("probe", "name the probe that is compared");
   }
   if (std::string reference; table.read("reference", reference) && !reference.empty()) {

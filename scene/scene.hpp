@@ -3,12 +3,14 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
+#include "scene/profile_problem.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::scene {
@@ -52,9 +54,13 @@ struct Output {
 
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
-  std::string kind;       ///< "none", "rigid_cylinder", "tube"
+  std::string kind;       ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile"
   std::string probe;      ///< the probe it reads
   std::string reference;  ///< CSV path, relative to the scene file; may be empty
+  std::optional<Solution> solution;  ///< of a profile
+  /// Of a profile: least and largest coordinate that is compared [m].
+  double window_low = -std::numeric_limits<double>::infinity(), window_high = std::numeric_limits<double>::infinity();
+  std::optional<double> core;  ///< of a Riemann problem: least |y| and |z| that is left out [m]
 };
 
 struct Scene {

@@ -41,7 +41,7 @@ std::vector<Section> make_schema() {
       {"start", {word("kind"), word("body"), above("time", 0, 1e3, "s")}},
       {"bodies",
        {word("name"), word("shape"), word("subtract"), word("material"), length("spacing"), speed,
-        any("pressure", "Pa"), positive("density", "kg/m^3"), any("energy", "J/kg"), word("burn"),
+        any("radial_velocity", "m/s"), any("pressure", "Pa"), positive("density", "kg/m^3"), any("energy", "J/kg"), word("burn"),
         word("variable_h")}},
       {"burn",
        {word("model"), position("initiation"), positive("speed", "m/s"), between("width", 0, farthest, "m"),
@@ -68,6 +68,9 @@ std::vector<Section> make_schema() {
         above("gamma", 1, 100)}},
       {"material.ideal_gas",
        {word("base"), word("name"), word("source"), word("law"), positive("rho0", "kg/m^3"), above("gamma", 1, 100)}},
+      {"material.stiffened_gas",
+       {word("base"), word("name"), word("source"), word("law"), positive("rho0", "kg/m^3"), above("gamma", 1, 100),
+        at_least_zero("p_inf", "Pa")}},
       {"material.jwl",
        {word("base"), word("name"), word("source"), word("law"), positive("rho0", "kg/m^3"), any("A", "Pa"),
         any("B", "Pa"), positive("R1", ""), positive("R2", ""), positive("omega", ""), positive("E0", "J/kg"),
@@ -131,7 +134,7 @@ std::vector<Section> make_schema() {
        {between("history_interval", 0, 1e3, "s"), between("field_interval", 0, 1e3, "s"),
         between("field_times", 0, 1e3, "s"), word("particle_fields"), word("structure_fields"),
         word("solid_fields")}},
-      {"comparison", {word("kind"), word("probe"), word("reference")}},
+      {"comparison", {word("kind"), word("probe"), word("reference"), word("solution"), position("window"), length("core")}},
   };
 }
 

@@ -1,5 +1,6 @@
 // The resolved scene: every key with its value, units as comments.
 #include <cassert>
+#include <cmath>
 #include <type_traits>
 
 #include "scene/document.hpp"
@@ -170,6 +171,7 @@ void put_body(Writer& writer, const sph::Body& body) {
                 }));
   writer.put("spacing", body.spacing);
   writer.put("velocity", body.velocity);
+  writer.put("radial_velocity", body.radial_velocity);
   writer.put("pressure", body.pressure);
   writer.put("density", body.density);
   writer.put("energy", body.energy);
@@ -405,6 +407,10 @@ std::string to_toml(const Scene& scene) {
   writer.put("kind", scene.comparison.kind);
   writer.put("probe", scene.comparison.probe);
   writer.put("reference", scene.comparison.reference);
+  if (scene.comparison.solution) writer.put("solution", solution_name(*scene.comparison.solution));
+  if (std::isfinite(scene.comparison.window_low))
+    writer.put("window", std::vector<double>{scene.comparison.window_low, scene.comparison.window_high});
+  writer.put("core", scene.comparison.core);
   return writer.text();
 }
 

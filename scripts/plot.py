@@ -114,6 +114,10 @@ class Run:
                 return self.histories[name]
         raise Missing(f"{self.folder}/history: no CSV has a column '{column}'; add a probe with it to the scene")
 
+    def body_name(self, number):
+        bodies = self.setting("bodies", [])
+        return bodies[number]["name"] if number < len(bodies) else f"body {number}"
+
     def title(self):
         parts = [self.name]
         spacing = self.setting("resolution.spacing")
@@ -213,6 +217,27 @@ def plot_tube(run, reference):
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
     figure.suptitle(run.title())
+    return figure
+
+
+# ------------------------------------------------------------------------------------------- profiles
+
+def plot_profile(run):
+    """The particles as dots and the exact solution as a line, a panel per quantity."""
+    computed = read_history(run.folder / "profile.csv")
+    exact = read_history(run.folder / "profile_exact.csv")
+    figure, axes = plt.subplots(3, 1, figsize=(9, 10), sharex=True)
+    for axis, quantity, unit in zip(axes, ("density", "velocity", "pressure"), ("kg/m³", "m/s", "Pa")):
+        axis.plot(exact["coordinate"], exact["exact_" + quantity], color="0.35", lw=1.2, label="exact", zorder=1)
+        for body in np.unique(computed["body"]):
+            mine = computed["body"] == body
+            axis.plot(computed["coordinate"][mine], computed[quantity][mine], ".", ms=2.5, rasterized=True,
+                      label=run.body_name(int(body)), zorder=2)
+        axis.set(ylabel=f"{quantity} [{unit}]")
+        axis.grid(alpha=0.3)
+    axes[0].legend(fontsize=8)
+    axes[-1].set_xlabel("x [m]" if run.setting("comparison.solution") == "riemann" else "radius [m]")
+    axes[0].set_title(run.title())
     return figure
 
 
@@ -723,6 +748,8 @@ def main():
         jobs["wall_pressure"] = lambda: plot_rigid_cylinder(run, reference)
     if run.kind == "tube":
         jobs["wall_motion"] = lambda: plot_tube(run, reference)
+    if (run.folder / "profile.csv").is_file():
+        jobs["profile"] = lambda: plot_profile(run)
     jobs["energy"] = lambda: plot_energy(run)
     if run.setting("bodies") or not run.setting("solids"):
         jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)

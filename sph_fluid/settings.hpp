@@ -95,7 +95,22 @@ struct Body {
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
+  double radial_velocity = 0;             ///< away from the middle of the shape's base, added to `velocity` [m/s]
 };
+
+/// Specific internal energy [J/kg] of a uniform body at the start.
+inline double start_energy(const Body& body) {
+  if (body.energy) return *body.energy;
+  const auto* products = std::get_if<materials::Jwl>(&body.material.law);
+  return products ? products->parameters().E0 : 0.0;
+}
+
+/// Its density [kg/m^3]. Throws std::domain_error where the law has none at the body's pressure.
+inline double start_density(const Body& body) {
+  if (body.density) return *body.density;
+  if (body.pressure) return materials::density_at(body.material.law, *body.pressure, start_energy(body));
+  return body.material.rho0;
+}
 
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
 struct Wall {

@@ -12,18 +12,6 @@ namespace {
 /// What the machine (or OMP_NUM_THREADS) offers, before any fluid asks for its own number.
 const int machine_threads = omp_get_max_threads();
 
-double start_density(const Body& body, double energy) {
-  if (body.density) return *body.density;
-  if (body.pressure) return materials::density_at(body.material.law, *body.pressure, energy);
-  return body.material.rho0;
-}
-
-double start_energy(const Body& body) {
-  if (body.energy) return *body.energy;
-  if (const auto* jwl = std::get_if<materials::Jwl>(&body.material.law)) return jwl->parameters().E0;
-  return 0.0;
-}
-
 }  // namespace
 
 Fluid::Implementation::Implementation(const Settings& s)
@@ -54,16 +42,19 @@ void Fluid::Implementation::fill() {
     group.begin = at;
     group.spacing = body.spacing.value_or(settings.lattice.spacing);
     group.h0 = group.h_max = smoothing_length(settings, group.spacing);
-    const double energy = start_energy(body), rho = start_density(body, energy);
+    const double energy = start_energy(body), rho = start_density(body);
+    const Vec3 center = middle(body.shape.base, settings.dimension);
     group.rest_density = rho;
     for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
       const Vec3& x = bodies[b].position[k];
+      Vec3 velocity = body.velocity;
+      if (const Vec3 away = x - center; body.radial_velocity != 0.0) velocity += body.radial_velocity / away.norm() * away;
       particles.x[at] = x[0];
       particles.y[at] = x[1];
       particles.z[at] = x[2];
-      particles.vx[at] = body.velocity[0];
-      particles.vy[at] = body.velocity[1];
-      particles.vz[at] = body.velocity[2];
+      particles.vx[at] = velocity[0];
+      particles.vy[at] = velocity[1];
+      particles.vz[at] = velocity[2];
       particles.rho[at] = rho;
       particles.mass[at] = rho * bodies[b].volume[k];
       if (has_energy) particles.energy[at] = energy;

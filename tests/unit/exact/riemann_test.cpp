@@ -246,6 +246,41 @@ TEST(Riemann, SteinbergWaterCavitatesOnItsFloor) {
   EXPECT_NEAR(100.0 - s.star(1).velocity, 1e5 / (1000.0 * 1480.0), 2e-4);
 }
 
+TEST(Riemann, StiffenedGasIsTheIdealOneUnderPressure) {
+  // With one gamma and p_inf on both sides p + p_inf obeys the equations of the ideal gas.
+  const double inner = 6.0;
+  const FluidLaw law = materials::StiffenedGas({.rho0 = 1.0, .gamma = 1.4, .p_inf = inner});
+  const auto liquid = [&](double rho, double u, double p) {
+    return RiemannSide{law, rho, u, (p - inner + 1.4 * inner) / (0.4 * rho)};
+  };
+  for (const double weak : {0.1, 5.0}) {
+    const RiemannSolution s(liquid(1, 0, 10), liquid(0.125, 0.3, weak)), ideal(gas(1, 0, 10), gas(0.125, 0.3, weak));
+    EXPECT_NEAR(s.pressure() + inner, ideal.pressure(), 1e-10 * ideal.pressure());
+    EXPECT_NEAR(s.velocity(), ideal.velocity(), 1e-10 * ideal.velocity());
+    for (const double xi : {-3.0, -1.0, 0.0, 1.0, 3.0, 8.0}) {
+      EXPECT_NEAR(s.sample(xi).density, ideal.sample(xi).density, 1e-9) << xi;
+      EXPECT_NEAR(s.sample(xi).pressure + inner, ideal.sample(xi).pressure, 1e-9 * ideal.pressure()) << xi;
+    }
+  }
+}
+
+TEST(Riemann, GasAgainstStiffenedWaterByResiduals) {
+  // Air of 1 GPa against water of 1 bar: laws of both sides differ, the shock in the water keeps mass, momentum, energy.
+  const FluidLaw water = materials::StiffenedGas({.rho0 = 1000.0, .gamma = 4.4, .p_inf = 6e8});
+  const RiemannSide left{ideal_gas, 500.0, 0.0, 5e6}, right{water, 1000.0, 0.0, (1e5 + 4.4 * 6e8) / 3.4e3};
+  const RiemannSolution s(left, right);
+  ASSERT_TRUE(s.shock(1));
+  ASSERT_FALSE(s.shock(0));
+  const double D = s.head(1);
+  const RiemannSample behind = s.star(1);
+  const Fluxes before = fluxes(1000.0, 0.0, 1e5, right.energy, D),
+               after = fluxes(behind.density, behind.velocity, behind.pressure, behind.energy, D);
+  EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-10);
+  EXPECT_NEAR(after.momentum, before.momentum, 1e-9 * std::abs(before.momentum) + 1e-9 * behind.pressure);
+  EXPECT_NEAR(after.energy, before.energy, 1e-9 * std::abs(before.energy));
+  EXPECT_NEAR(s.star(0).pressure, behind.pressure, 1e-9 * behind.pressure);
+}
+
 TEST(Riemann, RefusesNoDensity) {
   EXPECT_THROW(RiemannSolution(gas(0.0, 0, 1), gas(1, 0, 1)), std::invalid_argument);
 }

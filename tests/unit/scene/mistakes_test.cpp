@@ -45,7 +45,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"unknown key of another table", with(two_gases, "spacing = 0.01", "spacing = 0.01\ncourant = 0.3"),
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
-       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, pressure, "
+       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, pressure, "
        "density, energy, burn, variable_h\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
        "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high\n"},
@@ -125,6 +125,28 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "the materials are based on each other in a circle; base one of them on the library\n"},
       {"Taylor bar without a bar", two_gases + "[comparison]\nkind = \"taylor_bar\"\n",
        "20:8: comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first of [[solids]], a cylinder; there is none\n"},
+      {"profile without a solution", two_gases + "[comparison]\nkind = \"profile\"\n",
+       "19:1: comparison.solution is missing; name the exact solution, e.g. solution = \"riemann\"\n"},
+      {"profile with an unknown solution", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"rieman\"\n",
+       "21:12: comparison.solution: unknown 'rieman'; did you mean 'riemann'?\n"},
+      {"profile of bodies apart", with(two_gases, "low = 0.5, high = 1", "low = 0.6, high = 1") +
+                                      "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\n",
+       "21:12: comparison.solution: \"riemann\" needs bodies that meet in one plane across x; 'left' ends at x = 0.500000 m, "
+       "'right' begins at 0.600000 m\n"},
+      {"profile of another problem", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"noh\"\n",
+       "21:12: comparison.solution: \"noh\" needs one body alone, of law \"ideal_gas\", without energy and with a negative "
+       "radial_velocity\n"},
+      {"profile of two unlike gases", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"sedov\"\n",
+       "21:12: comparison.solution: \"sedov\" needs two bodies at rest of one ideal gas"},
+      {"profile without a charge", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"taylor_wave\"\n",
+       "21:12: comparison.solution: \"taylor_wave\" needs one body alone, a charge at rest with a programmed burn\n"},
+      {"window the wrong way round", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\nwindow = [1, 0]\n",
+       "22:10: comparison.window must be [least, largest] coordinate in m, the first below the second\n"},
+      {"window without a profile", two_gases + "[comparison]\nkind = \"none\"\nwindow = [0, 1]\n",
+       "21:10: comparison.window belongs to kind = \"profile\"; leave it out\n"},
+      {"stiffened gas without energy", with(two_gases, "{law = \"ideal_gas\", rho0 = 1, gamma = 1.4}\ndensity = 0.125\nenergy = 2",
+                                            "{law = \"stiffened_gas\", rho0 = 1, gamma = 4.4, p_inf = 6}\ndensity = 0.125"),
+       "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)\n"},
       {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
        "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
       {"unknown key of a solid", with(impact, "velocity =", "veloctiy ="),

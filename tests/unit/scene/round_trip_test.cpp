@@ -10,6 +10,41 @@ using namespace undex;
 using namespace undex::scene;
 using namespace undex::scene::test;
 
+const std::string profile = R"(dimension = 2
+end_time = 1
+[resolution]
+spacing = 0.1
+[[bodies]]
+name = "left"
+shape = {type = "box", low = [0, 0], high = [1, 1]}
+material = {law = "stiffened_gas", rho0 = 1, gamma = 4.4, p_inf = 6}
+energy = 10
+[[bodies]]
+name = "right"
+shape = {type = "box", low = [1, 0], high = [2, 1]}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
+energy = 1
+[comparison]
+kind = "profile"
+solution = "riemann"
+window = [0.5, 1.5]
+core = 0.3
+)";
+
+const std::string imploding = R"(dimension = 2
+end_time = 0.6
+[resolution]
+spacing = 0.1
+[[bodies]]
+name = "gas"
+shape = {type = "sphere", radius = 1}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
+radial_velocity = -1
+[comparison]
+kind = "profile"
+solution = "noh"
+)";
+
 /// Scenes that between them use every kind of table, with no value at its default.
 const std::vector<std::string> rich{R"(title = "all \"sorts\" of \\ things\t"
 name = "rich"
@@ -200,7 +235,7 @@ free_side = "below"
 [output]
 solid_fields = ["mass", "damage"]
 )",
-                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n"};
+                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n", profile, imploding};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
   for (const std::string& text : rich) {
@@ -268,6 +303,23 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.output.field_times, (std::vector<double>{1e-6, 2e-6}));
   EXPECT_FALSE(scene.output.structure_fields);
   EXPECT_EQ(scene.comparison.probe, "c");
+}
+
+TEST(RoundTrip, ProfileHoldsTheValuesGiven) {
+  const Scene scene = read(Scratch().write(profile));
+  EXPECT_EQ(scene.comparison.solution, Solution::riemann);
+  EXPECT_EQ(scene.comparison.window_low, 0.5);
+  EXPECT_EQ(scene.comparison.window_high, 1.5);
+  EXPECT_EQ(scene.comparison.core, 0.3);
+  EXPECT_EQ(std::get<materials::StiffenedGas>(scene.fluid.bodies[0].material.law).parameters().p_inf, 6);
+  EXPECT_FALSE(scene.fluid.bodies[0].variable_h);
+}
+
+TEST(RoundTrip, RadialVelocityIsKept) {
+  const Scene scene = read(Scratch().write(imploding));
+  EXPECT_EQ(scene.fluid.bodies[0].radial_velocity, -1);
+  EXPECT_EQ(scene.comparison.solution, Solution::noh);
+  EXPECT_FALSE(scene.comparison.core);
 }
 
 TEST(RoundTrip, SolidsHoldTheValuesGiven) {
