@@ -161,7 +161,8 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
     double most = nan;
     if (solution.shock(side))
       for (const ProfilePoint& p : c.profile)
-        if ((side == 0) == (p.body == int(c.problem.first)) && !beside_contact(p))
+        if ((side == 0) == (p.body == int(c.problem.first)) && !beside_contact(p) &&
+            (side == 0 ? p.coordinate > shock[0] : p.coordinate < shock[1]))
           most = std::fmax(most, (p.run.pressure - solution.pressure()) / (solution.pressure() - start[side]));
     metrics.emplace_back(std::string(names[side]) + "_overshoot", most);
   }
