@@ -743,15 +743,19 @@ def main():
     pictures.mkdir(exist_ok=True)
 
     reference = options.reference or REFERENCE.get(run.kind)
-    jobs = {"histories": lambda: plot_all_histories(run)}
+    profile = (run.folder / "profile.csv").is_file()  # such a scene needs neither probes nor snapshots
+    jobs = {}
+    if run.histories or not profile:
+        jobs["histories"] = lambda: plot_all_histories(run)
     if run.kind == "rigid_cylinder":
         jobs["wall_pressure"] = lambda: plot_rigid_cylinder(run, reference)
     if run.kind == "tube":
         jobs["wall_motion"] = lambda: plot_tube(run, reference)
-    if (run.folder / "profile.csv").is_file():
+    if profile:
         jobs["profile"] = lambda: plot_profile(run)
     jobs["energy"] = lambda: plot_energy(run)
-    if run.setting("bodies") or not run.setting("solids"):
+    if (run.setting("bodies") or not run.setting("solids")) and \
+            not (profile and not (run.folder / "fields/particles.h5part").is_file()):
         jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)
     if run.setting("solids"):
         for quantity in SOLID_COLOURS:
