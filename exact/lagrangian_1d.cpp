@@ -31,6 +31,8 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
   if (layers.empty()) refuse("needs at least one layer");
   if (!(options.courant > 0 && options.courant < 1))
     refuse(text("the Courant number must lie between 0 and 1, got ", options.courant));
+  if (!(options.inner_mass >= 0 && options.outer_mass >= 0))
+    refuse(text("the masses of plates must not be negative, got ", options.inner_mass, " and ", options.outer_mass, " kg/m^2"));
   if (dimension > 1 && !(layers.front().inner >= 0))
     refuse(text("radii begin at 0, got ", layers.front().inner, " m"));
   for (std::size_t k = 0; k < layers.size(); ++k) {
@@ -40,13 +42,17 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
           text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
     if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
     if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
-    if (!(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
+    if (!layer.start && !(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
     if (k > 0 && std::abs(layer.inner - layers[k - 1].outer) > 1e-12 * std::abs(layer.inner))
       refuse(text("layer ", k, " begins at ", layer.inner, " m, but the one before it ends at ",
                   layers[k - 1].outer, " m"));
     if (layer.burn && !std::holds_alternative<materials::Jwl>(layer.law))
       refuse(text("layer ", k, " burns, so its law must be that of detonation products (Jwl)"));
   }
+}
+
+StartPoint start_of(const Layer& layer, double radius) {
+  return layer.start ? layer.start(radius) : StartPoint{layer.density, layer.velocity, layer.energy};
 }
 
 double first_width(double length, int cells, double ratio) {
@@ -82,18 +88,21 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
     double width = first_width(layer.outer - layer.inner, layer.cells, layer.ratio);
     for (int i = 0; i < layer.cells; ++i, width *= layer.ratio) {
       const double from = r_.back(), to = i + 1 < layer.cells ? from + width : layer.outer;
+      const StartPoint state = start_of(layer, 0.5 * (from + to));
+      if (!(state.density > 0))
+        refuse(text("layer ", k, " starts with the density ", state.density, " kg/m^3 between ", from, " and ", to, " m"));
       r_.push_back(to);
       start_volume_.push_back(volume_to(to) - volume_to(from));
-      start_density_.push_back(layer.density);
-      cell_mass_.push_back(layer.density * start_volume_.back());
+      start_density_.push_back(state.density);
+      cell_mass_.push_back(state.density * start_volume_.back());
       cell_layer_.push_back(static_cast<int>(k));
       start_middle_.push_back(0.5 * (from + to));
       e_.push_back(std::visit(
           [&](const auto& law) {
             if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy)
-              return layer.energy;
+              return state.energy;
             else
-              return law.barotropic_energy(layer.density);
+              return law.barotropic_energy(state.density);
           },
           layer.law));
     }
@@ -107,8 +116,12 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   for (int i = 0; i < n; ++i)
     for (const int node : {i, i + 1}) {
       node_mass_[node] += 0.5 * cell_mass_[i];
-      u_[node] += 0.5 * cell_mass_[i] * layers_[cell_layer_[i]].velocity;
+      u_[node] += 0.5 * cell_mass_[i] * start_of(layers_[cell_layer_[i]], r_[node]).velocity;
     }
+  // A plate is a node's mass.
+  const auto area = [&](double radius) { return dimension_ == 1 ? 1.0 : area_factor_ * std::pow(radius, dimension_ - 1); };
+  if (inner_ == Boundary::free) node_mass_[0] += options_.inner_mass * area(r_[0]);
+  if (outer_ == Boundary::free) node_mass_[n] += options_.outer_mass * area(r_[n]);
   for (int i = 0; i <= n; ++i) {
     const bool held = (i == 0 && inner_ == Boundary::rigid) || (i == n && outer_ == Boundary::rigid);
     u_[i] = held ? 0.0 : u_[i] / node_mass_[i];

@@ -13,6 +13,7 @@
 // gradients, takes it out of smooth compression (R. B. Christensen's form).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -23,7 +24,12 @@
 
 namespace undex::exact {
 
-/// A layer of one fluid, uniform at the start.
+/// State at the start of one point of a layer.
+struct StartPoint {
+  double density, velocity, energy;  ///< [kg/m^3], outward [m/s], specific [J/kg]
+};
+
+/// A layer of one fluid, uniform at the start unless `start` says otherwise.
 struct Layer {
   materials::FluidLaw law;
   double inner = 0.0, outer = 0.0;  ///< radii (planar: positions) of its ends [m]
@@ -37,6 +43,9 @@ struct Layer {
   /// with r the initial radius of the cell's middle. Front widths of three cells or more keep the front
   /// smooth.
   std::optional<materials::ProgrammedBurn> burn = {};
+  /// A start that is not uniform, in place of density, energy and velocity above: asked for at the cells' middles (the
+  /// velocity: at the nodes).
+  std::function<StartPoint(double radius)> start = {};
 };
 
 /// Ratio of neighbouring widths with which `cells` cells fill `length` [m], the first being `first` [m] wide.
@@ -55,6 +64,9 @@ struct Lagrangian1DOptions {
   bool limiter = true;                                        ///< psi; without it q acts in every compression
   double courant = 0.7;                                       ///< [-], below 1
   double inner_pressure = 0.0, outer_pressure = 0.0;          ///< outside of a free boundary [Pa]
+  /// Mass per area [kg/m^2] that rides on a free boundary: a rigid plate, at rest at the start, with the outside pressure
+  /// (zero: vacuum) behind it.
+  double inner_mass = 0.0, outer_mass = 0.0;
 };
 
 /// State at a point.
@@ -118,7 +130,7 @@ class Lagrangian1D {
 
   double kinetic_energy() const;   ///< [J]
   double internal_energy() const;  ///< [J]
-  /// Kinetic plus internal [J]. total_energy() + boundary_work() is conserved to round-off.
+  /// Kinetic (plates included) plus internal [J]. total_energy() + boundary_work() is conserved to round-off.
   double total_energy() const { return kinetic_energy() + internal_energy(); }
   /// Work done on what lies outside of free and transmitting boundaries since the start [J].
   double boundary_work() const { return boundary_work_; }
