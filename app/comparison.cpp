@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/free_field.hpp"
 #include "app/profile.hpp"
+#include "app/taylor_plate.hpp"
 #include "output/comparison_table.hpp"
 #include "output/metrics.hpp"
 
@@ -104,6 +106,8 @@ output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simula
   if (scene.comparison.kind == "rigid_cylinder") return rigid_cylinder(scene, probes);
   if (scene.comparison.kind == "tube") return tube(scene, probes);
   if (scene.comparison.kind == "taylor_bar") return taylor_bar(scene, simulation);
+  if (scene.comparison.kind == "taylor_plate") return taylor_plate(scene, probes, simulation.time());
+  if (scene.comparison.kind == "free_field") return free_field(scene, probes, simulation.time());
   return {};
 }
 

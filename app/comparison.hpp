@@ -13,6 +13,7 @@ namespace undex::app {
 
 /// Metrics of the scene's comparison (none: empty), from its probes, the body's present shape or the particles; NaN for what
 /// did not happen or was not reached. A profile is written into `folder` as well.
+/// The scene is the one given, before a spherical start changes it.
 output::NamedNumbers compare(const scene::Scene& scene, const Simulation& simulation, const Probes& probes,
                              const std::filesystem::path& folder);
 

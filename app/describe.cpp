@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "app/simulation.hpp"
+#include "app/plane_wave_start.hpp"
 #include "app/spherical_start.hpp"
 #include "core/shapes.hpp"
 
@@ -80,6 +81,7 @@ std::string describe(const scene::Scene& given) {
                             planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
 
   if (scene.start.kind == scene::Start::Kind::spherical) text += begin_spherically(scene) + "\n";
+  if (scene.start.kind == scene::Start::Kind::plane_wave) text += begin_with_plane_wave(scene) + "\n";
   Simulation simulation(scene);
   double memory = 0;
   if (const sph::Fluid* fluid = simulation.fluid()) {

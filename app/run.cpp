@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "app/comparison.hpp"
+#include "app/plane_wave_start.hpp"
 #include "app/probes.hpp"
 #include "app/progress.hpp"
 #include "app/simulation.hpp"
@@ -184,6 +185,9 @@ int run(const scene::Scene& given, const RunOptions& options) {
   if (scene.start.kind == scene::Start::Kind::spherical) {
     const std::string report = begin_spherically(scene);
     if (options.verbosity >= 0) std::printf("%s\n", report.c_str());
+  } else if (scene.start.kind == scene::Start::Kind::plane_wave) {
+    const std::string report = begin_with_plane_wave(scene);
+    if (options.verbosity >= 0) std::printf("%s\n", report.c_str());
   }
   Simulation simulation(scene);
 
@@ -206,7 +210,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
     record.status = status;
     record.message = message;
     try {
-      record.metrics = compare(scene, simulation, probes, folder);
+      record.metrics = compare(given, simulation, probes, folder);
     } catch (const std::invalid_argument&) {
       // A history that ends in values that are no numbers has no results; the record of the stop matters more.
     }

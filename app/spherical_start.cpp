@@ -22,22 +22,27 @@ bool same_sphere(const Primitive& shape, const Sphere& sphere) {
   return other && other->center == sphere.center && other->radius == sphere.radius;
 }
 
-sph::Body& find_charge(scene::Scene& scene) {
-  sph::Body* charge = nullptr;
-  for (sph::Body& body : scene.fluid.bodies) {
+std::size_t find_charge(const scene::Scene& scene) {
+  const auto& bodies = scene.fluid.bodies;
+  std::size_t charge = bodies.size();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const sph::Body& body = bodies[i];
     if (!scene.start.body.empty() ? body.name != scene.start.body : !body.variable_h) continue;
     if (!std::holds_alternative<Sphere>(body.shape.base) || !body.shape.removed.empty()) continue;
-    if (charge) refuse(scene, "bodies '" + charge->name + "' and '" + body.name + "' are both spherical; name one by start.body");
-    charge = &body;
+    if (charge < bodies.size())
+      refuse(scene, "bodies '" + bodies[charge].name + "' and '" + body.name + "' are both spherical; name one by start.body");
+    charge = i;
   }
-  if (!charge) refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
-  return *charge;
+  if (charge == bodies.size())
+    refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
+  return charge;
 }
 
-sph::Body& find_medium(scene::Scene& scene, const Sphere& sphere) {
-  for (sph::Body& body : scene.fluid.bodies)
-    for (const Primitive& hole : body.shape.removed)
-      if (same_sphere(hole, sphere)) return body;
+std::size_t find_medium(const scene::Scene& scene, const Sphere& sphere) {
+  const auto& bodies = scene.fluid.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (const Primitive& hole : bodies[i].shape.removed)
+      if (same_sphere(hole, sphere)) return i;
   refuse(scene, "no body surrounds the charge; the medium's `subtract` must name it");
 }
 
@@ -58,6 +63,17 @@ exact::Layer layer_of(const sph::Body& body, double inner, double outer, double 
   layer.density = start_density(body);
   layer.energy = start_energy(body);
   return layer;
+}
+
+std::vector<exact::Layer> layers_of(const sph::Body& charge, const sph::Body& medium, double outer, int charge_cells) {
+  const double radius = std::get<Sphere>(charge.shape.base).radius, cell = radius / charge_cells;
+  std::vector<exact::Layer> layers{layer_of(charge, 0.0, radius, cell), layer_of(medium, radius, outer, cell)};
+  if (charge.burn && !charge.burn->instantaneous) {
+    layers[0].burn = charge.burn;
+    layers[0].burn->origin = Vec3::Zero();
+    layers[0].burn->width = 4.0 * cell;
+  }
+  return layers;
 }
 
 /// State, mass and energies of one layer of the mesh for the particles of one body. `share`: kept part of the sphere.
@@ -86,11 +102,21 @@ std::shared_ptr<const sph::StartField> field_of(std::shared_ptr<const exact::Lag
 
 }  // namespace
 
+Sphere spherical_charge(const scene::Scene& scene) {
+  return std::get<Sphere>(scene.fluid.bodies[find_charge(scene)].shape.base);
+}
+
+exact::Lagrangian1D spherical_flow(const scene::Scene& scene, double outer, int charge_cells) {
+  const sph::Body& charge = scene.fluid.bodies[find_charge(scene)];
+  const sph::Body& medium = scene.fluid.bodies[find_medium(scene, spherical_charge(scene))];
+  return {3, layers_of(charge, medium, outer, charge_cells), exact::Boundary::rigid, exact::Boundary::transmitting};
+}
+
 std::string begin_spherically(scene::Scene& scene) {
   sph::Settings& fluid = scene.fluid;
-  sph::Body& charge = find_charge(scene);
+  sph::Body& charge = fluid.bodies[find_charge(scene)];
   const Sphere sphere = std::get<Sphere>(charge.shape.base);
-  sph::Body& medium = find_medium(scene, sphere);
+  sph::Body& medium = fluid.bodies[find_medium(scene, sphere)];
   double share = 1.0;
   for (int a = 0; a < 3; ++a)
     if (fluid.symmetry.axis[a]) {
@@ -106,15 +132,7 @@ std::string begin_spherically(scene::Scene& scene) {
 
   const double obstacle = obstacle_distance(scene, charge, medium, sphere);
   const double reach = sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing);
-  const double cell = sphere.radius / cells_in_charge;
-  std::vector<exact::Layer> layers{layer_of(charge, 0.0, sphere.radius, cell),
-                                   layer_of(medium, sphere.radius, obstacle, cell)};
-  if (charge.burn && !charge.burn->instantaneous) {
-    layers[0].burn = charge.burn;
-    layers[0].burn->origin = Vec3::Zero();
-    layers[0].burn->width = 4.0 * cell;
-  }
-  const auto flow = std::make_shared<exact::Lagrangian1D>(3, std::move(layers));
+  const auto flow = std::make_shared<exact::Lagrangian1D>(3, layers_of(charge, medium, obstacle, cells_in_charge));
   const double last_front = obstacle - reach - fluid.lattice.spacing;
   if (last_front <= sphere.radius)
     refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "exact/lagrangian_1d.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::app {
@@ -14,5 +15,12 @@ namespace undex::app {
 /// present radius, charge and medium get a start field, and the start time is set. Returns one line that says what was
 /// done. Throws SceneError where the scene does not allow a spherical start.
 std::string begin_spherically(scene::Scene& scene);
+
+/// The scene's spherical charge as it is at time zero. Throws SceneError where there is none.
+Sphere spherical_charge(const scene::Scene& scene);
+
+/// Its one-dimensional flow in the medium, which reaches out to the radius `outer` [m] and there lets the wave pass; the
+/// charge's radius is cut into `charge_cells` cells, the medium into cells as wide.
+exact::Lagrangian1D spherical_flow(const scene::Scene& scene, double outer, int charge_cells);
 
 }  // namespace undex::app

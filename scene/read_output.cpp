@@ -68,12 +68,52 @@ void read_output_table(const TableReader& top, Draft& draft) {
     check_words(table, "solid_fields", output.solid_fields, known_solid_fields);
 }
 
+/// The keys of a plane wave; only the checks that need no geometry of others.
+void read_wave(const TableReader& table, const TableReader& top, Draft& draft) {
+  Start& start = draft.scene.start;
+  Start::Wave& wave = start.wave;
+  const bool asked = start.kind == Start::Kind::plane_wave;
+  for (const char* key : {"axis", "towards", "front", "peak", "decay"})
+    if (!asked && table.has(key)) table.complain(key, table.path_of(key) + " is of start.kind = \"plane_wave\"; leave it out or set the kind");
+  if (!asked) return;
+  if (table.has("time")) table.complain("time", "start.time is of start.kind = \"spherical\"; leave it out");
+  table.need("axis", "name the axis along which the wave runs");
+  table.need("front", "give the position of the wave's front along its axis in m");
+  table.need("peak", "give the wave's largest pressure above that at rest in Pa");
+  table.need("decay", "give the time in s over which the wave falls by e");
+  table.read("front", wave.front);
+  table.read("peak", wave.peak);
+  table.read("decay", wave.decay);
+  table.read_choice<bool>("towards", wave.upward, {{"high", true}, {"low", false}});
+  if (table.read_axis("axis", wave.axis)) {
+    if (wave.axis >= top.dimension())
+      table.complain("axis", "start.axis: the scene has dimension = " + std::to_string(top.dimension()) + " and no such axis");
+    else if (draft.scene.fluid.symmetry.axis[wave.axis])
+      table.complain("axis", "start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave "
+                             "the plane out, or let the wave run along another axis");
+  }
+  const auto& bodies = draft.scene.fluid.bodies;
+  if (bodies.empty()) {
+    table.complain("kind", "start.kind = \"plane_wave\" needs one of [[bodies]] to run in; there is none");
+    return;
+  }
+  if (start.body.empty() && bodies.size() > 1) {
+    table.complain("body", "start.kind = \"plane_wave\": the scene has several bodies; name the one that carries the wave by start.body");
+    return;
+  }
+  for (const sph::Body& body : bodies)
+    if ((body.name == start.body || start.body.empty()) && (body.velocity.norm() > 0 || body.burn))
+      table.complain("body", "start.kind = \"plane_wave\": bodies." + body.name + " must be at rest and not burn");
+}
+
 void read_start(const TableReader& top, Draft& draft) {
   Start& start = draft.scene.start;
   const Node* node = top.table("start");
   if (!node) return;
   const TableReader table(*node, "start", "start", top.dimension(), draft.report);
-  table.read_choice<Start::Kind>("kind", start.kind, {{"plain", Start::Kind::plain}, {"spherical", Start::Kind::spherical}});
+  table.read_choice<Start::Kind>("kind", start.kind, {{"plain", Start::Kind::plain},
+                                                      {"spherical", Start::Kind::spherical},
+                                                      {"plane_wave", Start::Kind::plane_wave}});
   if (table.read("body", start.body) && !start.body.empty()) {
     std::vector<std::string> names;
     for (const sph::Body& body : draft.scene.fluid.bodies) names.push_back(body.name);
@@ -83,6 +123,39 @@ void read_start(const TableReader& top, Draft& draft) {
   if (double time; table.read("time", time)) start.time = time;
   if (start.kind == Start::Kind::spherical && top.dimension() != 3)
     table.complain("kind", "start.kind = \"spherical\" needs dimension = 3");
+  read_wave(table, top, draft);
+}
+
+/// A plate that a plane wave meets head-on.
+void check_taylor_plate(const TableReader& table, const Draft& draft) {
+  const Scene& scene = draft.scene;
+  const Start::Wave& wave = scene.start.wave;
+  const auto* plate = scene.structure ? std::get_if<fem::PlateMesh>(&scene.structure->mesh) : nullptr;
+  const std::string face = std::string(1, "xyz"[wave.axis]) + (wave.upward ? "_low" : "_high");
+  if (scene.start.kind != Start::Kind::plane_wave || !plate)
+    table.complain("kind", "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
+  else if (scene.structure->wet_faces != std::vector<std::string>{face})
+    table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
+                               "'; write structure.wet = [\"" + face + "\"]");
+  const auto reads_water = [&](const Probe& probe) {
+    return probe.name == scene.comparison.probe && probe.kind != Probe::Kind::structure;
+  };
+  if (std::any_of(scene.probes.begin(), scene.probes.end(), reads_water))
+    table.complain("probe", "comparison.probe must be a structure probe: the plate's velocity is compared");
+}
+
+/// A spherical charge in one medium, and probes in it.
+void check_free_field(const TableReader& table, const Draft& draft) {
+  const auto& bodies = draft.scene.fluid.bodies;
+  const auto is_charge = [](const sph::Body& body) {
+    return body.variable_h && body.shape.removed.empty() && std::holds_alternative<Sphere>(body.shape.base);
+  };
+  const auto charges = std::count_if(bodies.begin(), bodies.end(), is_charge);
+  if (draft.scene.fluid.dimension != 3 || bodies.size() != 2 || charges != 1)
+    table.complain("kind", "comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and "
+                           "the medium from which it is subtracted");
+  if (std::none_of(draft.scene.probes.begin(), draft.scene.probes.end(), [](const Probe& p) { return p.kind == Probe::Kind::fluid; }))
+    table.complain("kind", "comparison.kind = \"free_field\" compares the pressures of fluid probes; add [[probes]]");
 }
 
 /// Keys of kind = "profile", and whether the bodies pose such a problem.
@@ -130,7 +203,8 @@ void read_comparison(const TableReader& top, Draft& draft) {
   const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
   table.read_choice<std::string>("kind", comparison.kind,
                                  {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"},
-                                  {"taylor_bar", "taylor_bar"}, {"profile", "profile"}});
+                                  {"taylor_bar", "taylor_bar"}, {"taylor_plate", "taylor_plate"},
+                                   {"free_field", "free_field"}, {"profile", "profile"}});
   read_profile(table, draft);
   if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
     std::vector<std::string> names;
@@ -145,8 +219,11 @@ void read_comparison(const TableReader& top, Draft& draft) {
     if (!rod)
       table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
                              "of [[solids]], a cylinder; there is none");
+  } else if (comparison.kind == "free_field") {
+    check_free_field(table, draft);
   } else if (comparison.kind != "none" && comparison.kind != "profile") {
     table.need("probe", "name the probe that is compared");
+    if (comparison.kind == "taylor_plate") check_taylor_plate(table, draft);
   }
   if (std::string reference; table.read("reference", reference) && !reference.empty()) {
     const std::filesystem::path full = draft.scene.file.parent_path() / reference;

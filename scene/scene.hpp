@@ -19,10 +19,20 @@ namespace undex::scene {
 struct Start {
   /// plain: every body uniform at time zero. spherical: until the wave from a spherical charge (or bubble) nears the first
   /// obstacle, the flow is one-dimensional: it is computed on a fine one-dimensional mesh and laid on the particles then.
-  enum class Kind { plain, spherical };
+  /// plane_wave: one body carries a plane wave at time zero.
+  enum class Kind { plain, spherical, plane_wave };
   Kind kind = Kind::plain;
-  std::string body;              ///< the charge; default: the only spherical body of gas or products
+  std::string body;              ///< the charge, or the body that carries the wave; default: the only spherical body of gas or
+                                 ///< products, the only body
   std::optional<double> time;    ///< [s] when particles take over; default: when the front is a kernel's reach from the obstacle
+  struct Wave {
+    int axis = 2;                ///< along which it runs
+    bool upward = true;          ///< to larger coordinates?
+    double front = 0;            ///< where its front is [m]
+    double peak = 0;             ///< above the pressure at rest [Pa]
+    double decay = 0;            ///< [s]
+  };
+  Wave wave;                     ///< of kind plane_wave
 };
 
 /// A point whose values are written as a history.
@@ -54,7 +64,7 @@ struct Output {
 
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
-  std::string kind;       ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile"
+  std::string kind;       ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile", "taylor_plate", "free_field"
   std::string probe;      ///< the probe it reads
   std::string reference;  ///< CSV path, relative to the scene file; may be empty
   std::optional<Solution> solution;  ///< of a profile

@@ -38,7 +38,9 @@ std::vector<Section> make_schema() {
        {word("name"), word("kernel"), word("precision"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),
         between("alpha_min", 0, 100), between("shifting", 0, 1), above("courant", 0, 1), above("fixed_step", 0, 1, "s"), between("signal", 0, 0.1), between("h_low", 0.1, 1), between("h_high", 1, 20)}},
 
-      {"start", {word("kind"), word("body"), above("time", 0, 1e3, "s")}},
+      {"start",
+       {word("kind"), word("body"), above("time", 0, 1e3, "s"), word("axis"), word("towards"), position("front"),
+        positive("peak", "Pa"), above("decay", 0, 1e3, "s")}},
       {"bodies",
        {word("name"), word("shape"), word("subtract"), word("material"), length("spacing"), speed,
         any("radial_velocity", "m/s"), any("pressure", "Pa"), positive("density", "kg/m^3"), any("energy", "J/kg"), word("burn"),

@@ -349,6 +349,19 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   for (const sph::Wall& wall : fluid.walls) put_wall(writer, wall);
 }
 
+void put_start(Writer& writer, const Start& start) {
+  const bool wave = start.kind == Start::Kind::plane_wave;
+  writer.put("kind", wave ? "plane_wave" : start.kind == Start::Kind::spherical ? "spherical" : "plain");
+  if (!start.body.empty()) writer.put("body", start.body);
+  if (start.time) writer.put("time", *start.time);
+  if (!wave) return;
+  writer.axis("axis", start.wave.axis);
+  writer.put("towards", start.wave.upward ? "high" : "low");
+  writer.put("front", start.wave.front);
+  writer.put("peak", start.wave.peak);
+  writer.put("decay", start.wave.decay);
+}
+
 const char* kind_name(Probe::Kind kind) {
   switch (kind) {
     case Probe::Kind::fluid: return "fluid";
@@ -385,9 +398,7 @@ std::string to_toml(const Scene& scene) {
   }
   if (!scene.fluid.bodies.empty()) {
     writer.table("[start]", "start");
-    writer.put("kind", scene.start.kind == Start::Kind::spherical ? "spherical" : "plain");
-    if (!scene.start.body.empty()) writer.put("body", scene.start.body);
-    if (scene.start.time) writer.put("time", *scene.start.time);
+    put_start(writer, scene.start);
   }
   for (const Probe& probe : scene.probes) {
     writer.table("[[probes]]", "probes");

@@ -73,11 +73,12 @@ struct StartState {
   Vec3 velocity = Vec3::Zero(); ///< [m/s]
 };
 
-/// A start that is not uniform, from a computation before this one.
+/// A start that is not uniform: a wave, or a computation before this one.
 struct StartField {
   /// State of the particle at x [m] that stands for a cell of width `spacing` [m].
   std::function<StartState(const Vec3& x, double spacing)> state;
-  double mass = 0;              ///< of the kept part [kg]; the particles' masses are scaled to it
+  /// Of the kept part [kg]; the particles' masses are scaled to it. Zero: nothing is scaled, the states are exact means.
+  double mass = 0;
   double kinetic_energy = 0;    ///< of the kept part [J]; velocities are scaled to it
   double internal_energy = 0;   ///< of the kept part [J]; energies are scaled to it where the law has them
 };

@@ -85,6 +85,7 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
     kinetic += 0.5 * p.mass[i] * state.velocity.squaredNorm();
     internal += p.mass[i] * state.energy;
   }
+  if (start.mass <= 0) return;
   const double heavier = start.mass / mass;
   const double faster = kinetic > 0 ? std::sqrt(start.kinetic_energy / (kinetic * heavier)) : 1.0;
   const double hotter = internal > 0 ? start.internal_energy / (internal * heavier) : 1.0;

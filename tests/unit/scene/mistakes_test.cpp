@@ -147,6 +147,29 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"stiffened gas without energy", with(two_gases, "{law = \"ideal_gas\", rho0 = 1, gamma = 1.4}\ndensity = 0.125\nenergy = 2",
                                             "{law = \"stiffened_gas\", rho0 = 1, gamma = 4.4, p_inf = 6}\ndensity = 0.125"),
        "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)\n"},
+      {"plane wave without its keys", two_gases + "[start]\nkind = \"plane_wave\"\nbody = \"left\"\n",
+       "19:1: start.axis is missing; name the axis along which the wave runs\n"
+       "19:1: start.front is missing; give the position of the wave's front along its axis in m\n"
+       "19:1: start.peak is missing; give the wave's largest pressure above that at rest in Pa\n"
+       "19:1: start.decay is missing; give the time in s over which the wave falls by e\n"},
+      {"plane wave in which body", two_gases + "[start]\nkind = \"plane_wave\"\naxis = \"x\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
+       "19:1: start.kind = \"plane_wave\": the scene has several bodies; name the one that carries the wave by start.body\n"},
+      {"plane wave along no axis",
+       two_gases + "[start]\nkind = \"plane_wave\"\nbody = \"left\"\naxis = \"z\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
+       "22:8: start.axis: the scene has dimension = 1 and no such axis\n"},
+      {"plane wave through a symmetry plane",
+       two_gases + "[symmetry]\nplanes = [\"x\"]\n[start]\nkind = \"plane_wave\"\nbody = \"left\"\naxis = \"x\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
+       "24:8: start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave the plane out, or let "
+       "the wave run along another axis\n"},
+      {"key of a plane wave alone", two_gases + "[start]\npeak = 1e6\n",
+       "20:8: start.peak is of start.kind = \"plane_wave\"; leave it out or set the kind\n"},
+      {"plate comparison without wave",
+       two_gases + "[[probes]]\nname = \"a\"\npoint = 0.2\n[comparison]\nkind = \"taylor_plate\"\nprobe = \"a\"\n",
+       "23:8: comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"\n"
+       "24:9: comparison.probe must be a structure probe: the plate's velocity is compared\n"},
+      {"free field of no charge", two_gases + "[comparison]\nkind = \"free_field\"\n",
+       "20:8: comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and the medium from "
+       "which it is subtracted\n20:8: comparison.kind = \"free_field\" compares the pressures of fluid probes; add [[probes]]\n"},
       {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
        "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
       {"unknown key of a solid", with(impact, "velocity =", "veloctiy ="),

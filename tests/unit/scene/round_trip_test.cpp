@@ -235,6 +235,37 @@ free_side = "below"
 [output]
 solid_fields = ["mass", "damage"]
 )",
+                                    R"(end_time = 1e-5
+[resolution]
+spacing = 0.001
+[start]
+kind = "plane_wave"
+body = "water"
+axis = "y"
+towards = "low"
+front = 0.01
+peak = 1e6
+decay = 2e-5
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0, 0], high = [0.01, 0.02, 0.01]}
+material = "water-tait-cutoff"
+[structure]
+shape = {type = "plate", low = [0, -0.005, 0], high = [0.01, 0, 0.01]}
+material = "copper-ofhc"
+wet = ["y_high"]
+[[probes]]
+name = "wall"
+kind = "wall"
+point = [0.005, 0, 0.005]
+[[probes]]
+name = "plate"
+kind = "structure"
+point = [0.005, -0.002, 0.005]
+[comparison]
+kind = "taylor_plate"
+probe = "plate"
+)",
                                     coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n", profile, imploding};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
