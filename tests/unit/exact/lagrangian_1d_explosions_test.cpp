@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
 
 #include "exact/detonation.hpp"
 #include "exact/lagrangian_1d.hpp"
@@ -140,6 +143,51 @@ TEST(Explosion, ChargeInWaterConvergesAndDoesNotLightItself) {
   EXPECT_NEAR(front[1] / front[2], 1.0, 1e-3);
   EXPECT_NEAR(heat[1] / heat[2], 1.0, 5e-3);
   EXPECT_LT(std::abs(contact[2] - contact[1]), 0.65 * std::abs(contact[1] - contact[0]));
+}
+
+TEST(Explosion, FreeFieldPressureConverges) {
+  // The reference of comparison.kind = "free_field" (150 cells in the charge): the pressure at 4 charge radii.
+  const FluidLaw water = fluid("water-tait");
+  const auto history = [&](int cells) {
+    const double radius = 10e-3;
+    Lagrangian1D s(3, {charge(radius, cells),
+                       {.law = water,
+                        .inner = radius,
+                        .outer = 80e-3,
+                        .cells = 7 * cells,
+                        .density = materials::density_at(water, 1e5, 0.0)}},
+                   Boundary::rigid, Boundary::transmitting);
+    std::vector<double> p;
+    for (int i = 1; i <= 1000; ++i) {
+      s.advance(40e-6 * i / 1000);
+      p.push_back(s.at(40e-3).pressure);
+    }
+    return p;
+  };
+  std::vector<double> p[3], peak, impulse;
+  for (int k = 0; k < 3; ++k) {
+    p[k] = history(50 << k);
+    peak.push_back(*std::max_element(p[k].begin(), p[k].end()));
+    impulse.push_back(std::accumulate(p[k].begin(), p[k].end(), 0.0) * 40e-9);
+  }
+  const auto distance = [&](int a, int b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < p[a].size(); ++i) sum += std::abs(p[a][i] - p[b][i]);
+    return sum / double(p[a].size()) / peak[2];
+  };
+  const double coarse = distance(0, 1), fine = distance(1, 2);
+  RecordProperty("l1_50_to_100_cells", std::to_string(coarse));
+  RecordProperty("l1_100_to_200_cells", std::to_string(fine));
+  for (int k = 0; k < 3; ++k) {
+    RecordProperty("peak_" + std::to_string(50 << k), std::to_string(peak[k]));
+    RecordProperty("impulse_" + std::to_string(50 << k), std::to_string(impulse[k]));
+  }
+  EXPECT_GT(coarse / fine, 1.6);
+  EXPECT_LT(fine, 1e-3);
+  // First order, as a burn front some cells wide must be: 0.2 % between the last two.
+  EXPECT_GT((impulse[0] - impulse[1]) / (impulse[1] - impulse[2]), 1.6);
+  EXPECT_NEAR(impulse[1] / impulse[2], 1.0, 3e-3);
+  EXPECT_NEAR(peak[1] / peak[2], 1.0, 5e-3);
 }
 
 }  // namespace

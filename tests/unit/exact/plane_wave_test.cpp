@@ -153,6 +153,36 @@ TEST(PlateBoundary, GivesTaylorsPlate) {
   }
 }
 
+TEST(PlateBoundary, IsTheLimitOfAStiffLayer) {
+  // The plate as a layer with the modulus of aluminium without lateral strain, and with a hundred times that: what the waves
+  // within it change of the impulse that it ends with.
+  const Column column;
+  const double peak = 1e6, thickness = 6.35e-3, density = 2700.0, decay_end = 20e-6;
+  const auto impulse = [&](double stiffer) {
+    const double modulus = stiffer * density * std::pow(bulk_wave_speed(71e9, 0.33, density), 2);
+    Layer water{.law = column.law, .inner = -0.05, .outer = 0.0, .cells = 500};
+    water.start = [wave = column.wave(peak)](double x) {
+      const PlaneWaveState s = wave.at(-x);
+      return StartPoint{s.density, s.velocity, s.energy};
+    };
+    const materials::FluidLaw elastic = materials::TaitWater(
+        {.rho0 = density, .B = modulus, .N = 1.0001, .A = 0.0, .cavitation = materials::Cavitation::none, .mixture = {}});
+    const Layer plate{.law = elastic, .inner = 0.0, .outer = thickness, .cells = 40, .density = density};
+    Lagrangian1D mesh(1, {water, plate}, Boundary::free, Boundary::free);
+    mesh.advance(decay_end);
+    return mesh.integral(-1.0, 1.0, 1).momentum;
+  };
+  Lagrangian1D rigid = column.mesh(peak, 0.05, 500, {.outer_mass = density * thickness});
+  rigid.advance(decay_end);
+  const double reference = density * thickness * rigid.node_velocity().back();
+  const double stiff = impulse(100.0) / reference, aluminium = impulse(1.0) / reference;
+  RecordProperty("stiff_over_rigid", std::to_string(stiff));
+  RecordProperty("aluminium_over_rigid", std::to_string(aluminium));
+  EXPECT_NEAR(stiff, 1.0, 5e-3);
+  EXPECT_LT(std::abs(stiff - 1.0), std::abs(aluminium - 1.0));
+  EXPECT_NEAR(aluminium, 1.0, 0.06);
+}
+
 TEST(PlateBoundary, FollowsNewtonUnderItsOutsidePressure) {
   // Nothing but the pressure behind: a thin layer of gas does not hold a plate of 10 kg/m^2 back.
   const materials::FluidLaw gas = materials::IdealGas({.rho0 = 1.0, .gamma = 1.4});
