@@ -93,6 +93,17 @@ void read_scheme(const TableReader& top, Draft& draft) {
   table.read("h_high", numerics.h_high);
 }
 
+/// Width of the burn unless the scene says otherwise: eight spacings, so that the front is smooth to the particles (a slab's
+/// peak then lies within 1 % of Chapman and Jouguet's pressure at 2000 particles; with four it overshoots by 5 %), but at
+/// most a twelfth of the way that the detonation runs, and at least one and a half spacings.
+double burn_width(double spacing, const Vec3& origin, const Primitive& shape, int dimension) {
+  const Bounds box = bounds(shape, dimension);
+  double way = 0;
+  for (int a = 0; a < dimension; ++a)
+    if (box.high[a] < 1e200) way = std::max({way, box.high[a] - origin[a], origin[a] - box.low[a]});
+  return std::max(1.5 * spacing, std::min(8.0 * spacing, way / 12.0));
+}
+
 bool is_gas(const FluidLaw& law) {
   return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) ||
          std::holds_alternative<Jwl>(law);
@@ -111,7 +122,7 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   const double spacing = body.spacing.value_or(draft.scene.fluid.lattice.spacing);
   bool instantaneous = false;
   Vec3 origin = middle(body.shape.base, table.dimension());  // lit there unless the scene says otherwise
-  double width = 1.5 * spacing;
+  std::optional<double> width;
   std::optional<double> speed, compression;
   if (const Node* node = table.find("burn"); node && node->kind == Node::Kind::text) {
     table.read_choice("burn", instantaneous, models);
@@ -132,8 +143,9 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   }
   if (instantaneous) return;
   ProgrammedBurn programmed;
+  if (!width) width = burn_width(spacing, origin, body.shape.base, table.dimension());
   try {
-    programmed = programmed_burn(*products, origin, width);
+    programmed = programmed_burn(*products, origin, *width);
   } catch (const std::exception& error) {  // no Chapman-Jouguet state
     if (!compression) {
       table.complain("material", table.path_of("material") + ": " + error.what() +
@@ -141,7 +153,7 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
       return;
     }
     programmed.origin = origin;
-    programmed.width = width;
+    programmed.width = *width;
     programmed.D = products->parameters().D;
   }
   if (speed) programmed.D = *speed;

@@ -54,11 +54,11 @@ struct ConstantH {
   Kernel kernel;
   T h_, inverse_h, scale, reach2;
 
-  ConstantH(const Kernel& k, double h, int dimension)
+  ConstantH(const Kernel& k, double h, const PairInput& in)
       : kernel(k),
         h_(T(h)),
         inverse_h(T(1.0 / h)),
-        scale(T(k.norm(dimension) / power(h, dimension + 2))),
+        scale(T(in.kernel_scale * k.norm(in.dimension) / power(h, in.dimension + 2))),
         reach2(T(k.support * k.support * h * h)) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
     pair.h = broadcast(h_);
@@ -80,7 +80,8 @@ struct PairH {
   T h_i, norm;
   int dimension;
 
-  PairH(const Kernel& k, double h, int d) : kernel(k), h_i(T(h)), norm(T(k.norm(d))), dimension(d) {}
+  PairH(const Kernel& k, double h, const PairInput& in)
+      : kernel(k), h_i(T(h)), norm(T(in.kernel_scale * k.norm(in.dimension))), dimension(in.dimension) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T* h_j) const {
     const T support = T(kernel.support);
     const V h = T(0.5) * (h_i + load(h_j));
@@ -231,9 +232,9 @@ class ClusterWork {
     if (list_.size == 0) return;
     for (int l = 0; l < cluster_.count; ++l) {
       if (kind.constant_h)
-        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_.dimension));
+        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
       else
-        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_.dimension));
+        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
     }
   }
 

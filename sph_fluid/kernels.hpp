@@ -199,4 +199,19 @@ double gradient_factor(double r, double h, int dimension) {
     return scale * Kernel::template gradient<double>(q * q);
 }
 
+/// What the discrete gradient makes of a linear field of slope 1 on a Cartesian lattice with h = eta spacings:
+/// -sum_j V_j x_ij^2 F_ij over the dimension. Kernel gradients of fluids are divided by it, so that sound on the lattice has
+/// its true speed; it is not 1 however fine the lattice.
+template <class Kernel>
+double lattice_factor(double eta, int dimension) {
+  const int reach = int(Kernel::support * eta);
+  const int y_reach = dimension > 1 ? reach : 0, z_reach = dimension > 2 ? reach : 0;
+  double sum = 0;
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -y_reach; y <= y_reach; ++y)
+      for (int z = -z_reach; z <= z_reach; ++z)
+        sum -= x * x * gradient_factor<Kernel>(std::sqrt(double(x * x + y * y + z * z)), eta, dimension);
+  return sum;
+}
+
 }  // namespace undex::sph

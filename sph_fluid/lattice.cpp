@@ -256,6 +256,10 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
 
 }  // namespace
 
+double lattice_factor(KernelName kernel, double eta, int dimension) {
+  return with_kernel(kernel, [&](auto k) { return lattice_factor<decltype(k)>(eta, dimension); });
+}
+
 double kernel_support(KernelName kernel) {
   return with_kernel(kernel, [](auto k) { return k.support; });
 }

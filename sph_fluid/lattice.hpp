@@ -24,5 +24,7 @@ std::vector<MovingWall> line_walls(const Settings& settings);
 /// The smoothing length of the scene's lattice [m], and the reach of its kernel [m].
 double smoothing_length(const Settings& settings, double spacing);
 double kernel_support(KernelName kernel);
+/// See kernels.hpp.
+double lattice_factor(KernelName kernel, double eta, int dimension);
 
 }  // namespace undex::sph

@@ -138,6 +138,7 @@ struct KernelChoice {
 /// Everything that the loop over pairs reads.
 struct PairInput {
   int dimension;
+  double kernel_scale;                 ///< of the kernel's gradient: 1 over its lattice factor (kernels.hpp), or 1
   const double *x, *y, *z;
   const FluidRow* fluid;
   KernelChoice kernel;                 ///< read by the loop that serves any kernel

@@ -5,11 +5,16 @@
 //   u* = (ZL uL + ZR uR + (pL - pR)/2)/(ZL + ZR)
 // (the switch b is that of Zhang, Hu, Adams 2017, J. Comput. Phys. 335, doi 10.1016/j.jcp.2017.01.027: full dissipation
 // at shocks, little in smooth flow), and the rates are
-//   (d rho/dt)_i = 2 rho_i sum_j V_j (v_i . e - u*)(-F r)
+//   (d rho/dt)_i = 2 sum_j w_ij V_j (v_i . e - u*)(-F r)
 //   (d v/dt)_i   = -2 sum_j m_j p*/(rho_i rho_j) grad W_ij
-//   heat_i       = 2 sum_j m_j (p* - p_i)/(rho_i rho_j) (v_i . e - u*)(-F r)
+//   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i . e - u*)(-F r)
 // The pair force and the pair work have one p* and one u*, so mass, momentum and total energy are conserved to round-off
-// by the space discretisation. In a pair with gas (or detonation products) the central parts are plain averages and only the
+// by the space discretisation; what of the work is not -p_i times the change of volume counts as heat. The weight w is rho_j
+// where two particles of one body approach each other: the rate is then the time derivative of sum_j m_j W_ij, and the
+// density behind a shock is that of the particles' distances, whatever happened within the front. Elsewhere w is rho_i, which
+// is consistent across jumps of density and holds on in expansion (rho_j would keep an error of density constant while the
+// density itself falls).
+// In a pair with gas (or detonation products) the central parts are plain averages and only the
 // dissipative parts are reconstructed: the jump of density at a contact is not a gradient to be followed. p* >= 0.
 // In such pairs all three rates carry the factor 2/(f_i + f_j), f being the filling (reconstruction.hpp) of gas and 1 of
 // liquids. Without it (f = 1 for all) a volume that is wrong by a factor f changes f times as fast as its surroundings: after
@@ -53,7 +58,7 @@ struct Riemann {
     return keep(agree, 2 * product * reciprocal(agree ? a + b : broadcast(T(1))));
   }
 
-  UNDEX_INLINE static V switched(V closing, V sound) { return minimum(3 * closing, sound) * reciprocal(sound); }
+  UNDEX_INLINE static V switched(V closing, V sound) { return minimum(12 * closing, sound) * reciprocal(sound); }
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
@@ -83,10 +88,17 @@ struct Riemann {
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
-    si.compression += Di;
-    sj.compression += Dj;
-    si.heat += Di * (p_star - i.p);
-    sj.heat += Dj * (p_star - j.p);
+    V Ci = Di, Cj = Dj;
+    if (!pair.foreign) {
+      const Mask<T> approach = u < 0;
+      const V inverse = reciprocal(i.rho * j.rho);
+      Ci = approach ? Di * (j.rho * j.rho * inverse) : Di;
+      Cj = approach ? Dj * (i.rho * i.rho * inverse) : Dj;
+    }
+    si.compression += Ci;
+    sj.compression += Cj;
+    si.heat += Di * p_star - Ci * i.p;
+    sj.heat += Dj * p_star - Cj * j.p;
     const V speed = keep(pair.near, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);

@@ -79,7 +79,9 @@ struct StartField {
   std::function<StartState(const Vec3& x, double spacing)> state;
   /// Of the kept part [kg]; the particles' masses are scaled to it. Zero: nothing is scaled, the states are exact means.
   double mass = 0;
-  double kinetic_energy = 0;    ///< of the kept part [J]; velocities are scaled to it
+  /// Of the kept part [J]. What of it the particles have not (motion within a spacing) is heat: part of their internal energy,
+  /// or dissipated where the law has none.
+  double kinetic_energy = 0;
   double internal_energy = 0;   ///< of the kept part [J]; energies are scaled to it where the law has them
 };
 

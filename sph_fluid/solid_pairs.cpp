@@ -120,6 +120,7 @@ void SolidPairs::pack(const SolidParticles& p) {
 PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   PairInput in{};
   in.dimension = settings_.dimension;
+  in.kernel_scale = 1.0;
   in.x = x_.data();
   in.y = y_.data();
   in.z = z_.data();

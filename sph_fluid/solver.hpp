@@ -49,6 +49,7 @@ struct Disturbed {
 struct Fluid::Implementation {
   Settings settings;
   PairLoops loops;
+  double kernel_scale = 1;                       // 1 over the kernel's lattice factor
   Particles particles;
   std::vector<Group> groups;
   std::vector<GroupView> views;

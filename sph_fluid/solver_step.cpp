@@ -330,6 +330,7 @@ PairInput Fluid::Implementation::pair_input() {
   // gradients within reach once more.
   in.margin = loops.reconstructs() ? 3.0 * reach : 2.0 * reach;
   in.dimension = settings.dimension;
+  in.kernel_scale = kernel_scale;
   in.x = particles.x.data();
   in.y = particles.y.data();
   in.z = particles.z.data();

@@ -142,6 +142,7 @@ inline Result run(const Sample& sample) {
   std::vector<Scratch> scratch(threads);
   PairInput in{};
   in.dimension = sample.dimension;
+  in.kernel_scale = 1.0;
   in.x = x.data();
   in.y = y.data();
   in.z = z.data();
