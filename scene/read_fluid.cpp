@@ -93,7 +93,7 @@ void read_scheme(const TableReader& top, Draft& draft) {
   table.read("h_high", numerics.h_high);
 }
 
-/// Width of the burn unless the scene says otherwise: eight spacings, so that the front is smooth to the particles (a slab's
+/// Width of the burn unless the scene says otherwise: six spacings, so that the front is smooth to the particles (a slab's
 /// peak then lies within 1 % of Chapman and Jouguet's pressure at 2000 particles; with four it overshoots by 5 %), but at
 /// most a twelfth of the way that the detonation runs, and at least one and a half spacings.
 double burn_width(double spacing, const Vec3& origin, const Primitive& shape, int dimension) {
@@ -101,7 +101,7 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
   double way = 0;
   for (int a = 0; a < dimension; ++a)
     if (box.high[a] < 1e200) way = std::max({way, box.high[a] - origin[a], origin[a] - box.low[a]});
-  return std::max(1.5 * spacing, std::min(8.0 * spacing, way / 12.0));
+  return std::max(1.5 * spacing, std::min(6.0 * spacing, way / 12.0));
 }
 
 bool is_gas(const FluidLaw& law) {

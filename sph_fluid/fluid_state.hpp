@@ -50,6 +50,7 @@ struct Pair {
   Mask<Element<V>> near;  ///< within the kernel's support; F is zero elsewhere
   bool gas;               ///< is one of them gas?
   bool foreign;           ///< are they of different bodies?
+  bool alike;             ///< are they of one material?
 };
 
 /// A fluid particle; `read(k)` gives entry k of its row.

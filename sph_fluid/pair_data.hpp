@@ -100,6 +100,7 @@ struct GroupView {
   double h_max;             ///< [m]
   bool variable_h;
   bool gas;                 ///< bubble gas or detonation products, not liquid
+  std::uint32_t material = 0;  ///< one number for all groups of one material
   bool own_pairs = true;    ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
 };
 

@@ -10,7 +10,7 @@
 //   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i . e - u*)(-F r)
 // The pair force and the pair work have one p* and one u*, so mass, momentum and total energy are conserved to round-off
 // by the space discretisation; what of the work is not -p_i times the change of volume counts as heat. The weight w is rho_j
-// where two particles of one body approach each other: the rate is then the time derivative of sum_j m_j W_ij, and the
+// where two particles of one material approach each other: the rate is then the time derivative of sum_j m_j W_ij, and the
 // density behind a shock is that of the particles' distances, whatever happened within the front. Elsewhere w is rho_i, which
 // is consistent across jumps of density and holds on in expansion (rho_j would keep an error of density constant while the
 // density itself falls).
@@ -89,7 +89,7 @@ struct Riemann {
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
     V Ci = Di, Cj = Dj;
-    if (!pair.foreign) {
+    if (pair.alike) {
       const Mask<T> approach = u < 0;
       const V inverse = reciprocal(i.rho * j.rho);
       Ci = approach ? Di * (j.rho * j.rho * inverse) : Di;

@@ -96,7 +96,7 @@ void SolidPairs::pack(const SolidParticles& p) {
     }
     const std::vector<std::uint32_t>& order = cells_[g].order();
     std::copy(order.begin(), order.end(), particle_.begin() + range.begin);
-    GroupView view{range.begin, range.end, cells_[g].view(), range.h, false, false};
+    GroupView view{range.begin, range.end, cells_[g].view(), range.h, false, false, 0};
     view.own_pairs = range.updated;
     views_.push_back(view);
     view.h_max = contact_h(range);

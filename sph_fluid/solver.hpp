@@ -21,6 +21,7 @@ struct Group {
   std::uint32_t begin = 0, end = 0;
   double spacing = 0, h0 = 0;            // [m]
   double h_max = 0;                      // [m], the largest at present
+  std::uint32_t material = 0;            // one number for all groups of one material
   double rest_density = 0;               // [kg/m^3], of what no signal has reached
   std::vector<double> lighting;          // burning charges only, by id - begin [s]
   CellList cells;

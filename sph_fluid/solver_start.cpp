@@ -9,6 +9,11 @@
 namespace undex::sph {
 namespace {
 
+/// Names are those of the library or of the scene's tables; changed copies have names of their own.
+bool same_material(const materials::Fluid& a, const materials::Fluid& b) {
+  return a.name == b.name && a.law.index() == b.law.index() && a.rho0 == b.rho0;
+}
+
 /// What the machine (or OMP_NUM_THREADS) offers, before any fluid asks for its own number.
 const int machine_threads = omp_get_max_threads();
 
@@ -63,6 +68,9 @@ void Fluid::Implementation::fill() {
       if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
     }
     group.end = at;
+    group.material = std::uint32_t(b);
+    for (std::size_t earlier = b; earlier-- > 0;)
+      if (same_material(settings.bodies[earlier].material, body.material)) group.material = std::uint32_t(earlier);
     bodies[b] = {};  // its memory is wanted
     if (body.start) lay_on(*body.start, group);
     groups.push_back(std::move(group));

@@ -185,8 +185,8 @@ void Fluid::Implementation::equation_of_state(double half, double bend) {
   double h_max = 0;
   for (Group& group : groups) {
     std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
-    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h,
-                     group.body->variable_h});
+    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h, group.body->variable_h,
+                     group.material});
     h_max = std::max(h_max, group.h_max);
   }
   reach = loops.support * h_max;
@@ -253,7 +253,7 @@ materials::PressureSound Fluid::Implementation::burning_state(const materials::J
   if (!burn.instantaneous) {
     // The front is timed from where the zone was at the start.
     const double since = evaluation_time - group.lighting[k];
-    const double timed = burn.width > 0 ? std::clamp(since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
+    const double timed = burn.width > 0 ? std::clamp(0.5 + since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
     // Burn by compression is not kept once the zone expands again: kept, the maximum would climb on the unburned
     // charge's own noise until it detonates by itself.
     fraction = std::max(timed, burn.fraction(burn.origin, -1.0, rho / group.body->material.rho0));

@@ -60,11 +60,11 @@ TEST_P(AcousticWave, PeriodConverges) {
   EXPECT_LT(error[2], 0.5 * error[0]);
 }
 
-TEST_P(AcousticWave, LatticeSumOfWendlandSlowsSound) {
+TEST_P(AcousticWave, EveryKernelCarriesSoundRightOnALattice) {
   double sound = 0;
   const double measured = period(64, GetParam(), KernelName::wendland_c2, sound);
   report("period_error_wendland", measured * sound / 2.0 - 1.0);
-  EXPECT_NEAR(measured * sound / 2.0, 1.0 / 0.98765, 0.003);
+  EXPECT_NEAR(measured * sound / 2.0, 1.0, 0.003);
 }
 
 INSTANTIATE_TEST_SUITE_P(, AcousticWave, ::testing::Values(SchemeName::monaghan, SchemeName::riemann),
