@@ -803,11 +803,11 @@ resolution.spacing = 0.0002
         self.assertIn("the limit that ended it has been raised", self.undex("study", "gas.toml", "--list").stdout)
 
     def test_missing_metric(self):
-        self.study(self.TEXT.replace('["energy_error"]', '["l1_pressure", "energy_eror"]'))
+        self.study(self.TEXT.replace('["energy_error"]', '["first_peak_pa", "energy_eror"]'))
         finished = self.undex("study", "gas.toml", "--only", self.NAMES[0])
         self.ends(finished, 0)
         self.assertEqual(len(re.findall("(?m)^note: ", finished.stdout)), 1, finished.stdout)
-        self.assertIn("note: no run has the metric l1_pressure, energy_eror; the scene has no [comparison]", finished.stdout)
+        self.assertRegex(finished.stdout, "note: no run has the metric first_peak_pa; known: .*, energy_eror; did you mean 'energy_error'")
 
     def test_mistakes(self):
         self.study("repeat = 3\n" + self.TEXT.replace("resolution.spacing", "resolution.spacng"))

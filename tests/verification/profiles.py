@@ -35,10 +35,10 @@ CASES = {
                                  {"l1_pressure": 0.0135, "l1_velocity": 0.032, "contact_error_spacings": 0.5,
                                   "contact_oscillation": 0.02, "right_front_error_spacings": 3.5},
                                  {"right_pressure_pa": 0.006, "right_velocity_change_m_s": 0.02}),
-    # The shocked water's pressure is 8 % low with this scheme, at every spacing.
     "jwl_water": Case("jwl_water", (1e-3, 5e-4),
-                      {"l1_pressure": 0.022, "l1_velocity": 0.032, "contact_oscillation": 0.04, "contact_error_spacings": 1.0},
-                      {"right_pressure_pa": 0.095, "left_pressure_pa": 0.03, "right_velocity_change_m_s": 0.025}),
+                      {"l1_pressure": 0.0055, "l1_velocity": 0.0095, "contact_oscillation": 0.02, "contact_error_spacings": 0.3},
+                      {"right_pressure_pa": 0.008, "left_pressure_pa": 0.004, "right_velocity_change_m_s": 0.003},
+                      {"l1_pressure": 0.7, "l1_velocity": 0.8}),
     # The same with Monaghan's viscosity: pressures are right, the contact's heating spike is 29 %.
     "jwl_water_monaghan": Case("jwl_water", (1e-3, 5e-4), {"l1_pressure": 0.011, "contact_oscillation": 0.35},
                                {"right_pressure_pa": 0.01, "right_velocity_change_m_s": 0.01}, {"l1_pressure": 0.4},
@@ -54,7 +54,7 @@ CASES = {
                       {"peak_pressure_pa": 0.12, "core_pressure_pa": 0.012, "core_density_kg_m3": 0.006},
                       {"l1_pressure": 0.5, "l1_velocity": 0.5}),
     "sedov": Case("sedov", (0.05, 0.04), {"front_error_spacings": 1.0, "l1_pressure": 0.14}, {"core_pressure_pa": 0.3}),
-    "noh": Case("noh", (0.1, 0.08), {"front_error_spacings": 0.6, "l1_density": 0.13, "l1_pressure": 0.13},
+    "noh": Case("noh", (0.1, 0.08), {"front_error_spacings": 0.6, "l1_density": 0.17, "l1_pressure": 0.15},
                 {"density_kg_m3": 0.15, "pressure_pa": 0.15}),
 }
 COLUMN = "water_shock_tube_column"
