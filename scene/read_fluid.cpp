@@ -73,8 +73,6 @@ void read_scheme(const TableReader& top, Draft& draft) {
                                                                       {"mixed", sph::Precision::mixed}});
   // each kernel's own usual smoothing length
   numerics.eta = sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
-  // C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2, where waves grow (docs/performance.md).
-  if (numerics.kernel == sph::KernelName::wendland_c6) numerics.courant = 0.27;
   if (numerics.scheme == sph::SchemeName::monaghan_switch) numerics.beta = 2.0;
   table.read("eta", numerics.eta);
   table.read("alpha", numerics.alpha);
@@ -86,6 +84,9 @@ void read_scheme(const TableReader& top, Draft& draft) {
                    "scheme.alpha_min = " + shortest(numerics.alpha_min) + " with scheme.name = \"monaghan_switch\": raise "
                    "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
   table.read("shifting", numerics.shifting);
+  table.read_choice<sph::Integrator>("integrator", numerics.integrator, {{"leapfrog", sph::Integrator::leapfrog},
+                                                                         {"ssp_rk3", sph::Integrator::ssp_rk3}});
+  numerics.courant = sph::default_courant(numerics.integrator, numerics.kernel);
   table.read("courant", numerics.courant);
   table.read("fixed_step", numerics.fixed_step);
   table.read("signal", numerics.signal);

@@ -15,6 +15,11 @@ struct EarlierRates {
   float compression = 0;         ///< [1/s]
 };
 
+/// State at the beginning of a step, for integrators of several stages.
+struct StepStart {
+  double x, y, z, vx, vy, vz, rho, energy;
+};
+
 struct Particles {
   // State, a structure of arrays.
   std::vector<double> x, y, z;      ///< [m]
@@ -27,7 +32,9 @@ struct Particles {
   /// Rates. The pair loop sums forces per volume; after the evaluation fx, fy, fz are the acceleration [m/s^2] and `heat` is
   /// the viscous heating, or the whole rate of `energy` where that is a field [W/kg].
   std::vector<SumRow> rate;
-  std::vector<EarlierRates> earlier;
+  std::vector<EarlierRates> earlier;  ///< of the leapfrog
+  std::vector<StepStart> start;       ///< of the Runge-Kutta method, as the next
+  std::vector<ViscosityRow> start_viscosity;
 
   /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
   /// memory serves as scratch.
@@ -49,10 +56,13 @@ struct Particles {
 
   /// Room for the rest, once the state is there: until then set-up needs memory of its own. Coefficients of viscosity start
   /// from `alpha`.
-  void make_room(SecondRow second, double alpha, bool shifted) {
+  void make_room(SecondRow second, double alpha, bool shifted, bool of_stages) {
     const std::size_t n = size();
     rate.assign(n, SumRow{});
-    earlier.assign(n, EarlierRates{});
+    if (of_stages)
+      start.resize(n);
+    else
+      earlier.assign(n, EarlierRates{});
     predicted.resize(n);
     if (second == SecondRow::gradient) gradient.resize(n);
     if (second == SecondRow::corrected) corrected.resize(n);
@@ -67,6 +77,29 @@ struct Particles {
     reorder(rate, first, order);
     reorder(earlier, first, order);
     reorder(viscosity, first, order);
+    reorder(start, first, order);
+    reorder(start_viscosity, first, order);
+  }
+
+  /// The present state becomes that at the beginning of the step.
+  void keep_start() {
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < size(); ++i)
+      start[i] = {x[i], y[i], z[i], vx[i], vy[i], vz[i], rho[i], energy.empty() ? 0.0 : energy[i]};
+    start_viscosity = viscosity;
+  }
+
+  /// And back to that.
+  void restore_start() {
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < size(); ++i) {
+      const StepStart& s = start[i];
+      x[i] = s.x, y[i] = s.y, z[i] = s.z;
+      vx[i] = s.vx, vy[i] = s.vy, vz[i] = s.vz;
+      rho[i] = s.rho;
+      if (!energy.empty()) energy[i] = s.energy;
+    }
+    viscosity = start_viscosity;
   }
 
   /// The rates of the last evaluation become those before it; new ones are summed up from zero.
@@ -74,7 +107,7 @@ struct Particles {
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < size(); ++i) {
       const SumRow& r = rate[i];
-      earlier[i] = {float(r.fx), float(r.fy), float(r.fz), float(r.compression)};
+      if (!earlier.empty()) earlier[i] = {float(r.fx), float(r.fy), float(r.fz), float(r.compression)};
       rate[i] = SumRow{};
     }
   }
@@ -83,9 +116,10 @@ struct Particles {
     std::size_t bytes = 0;
     for (const auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy}) bytes += a->capacity() * sizeof(double);
     return bytes + id.capacity() * sizeof(std::uint32_t) + rate.capacity() * sizeof(SumRow) +
-           earlier.capacity() * sizeof(EarlierRates) + predicted.capacity() * sizeof(FluidRow) +
-           gradient.capacity() * sizeof(GradientRow) + corrected.capacity() * sizeof(CorrectedRow) +
-           viscosity.capacity() * sizeof(ViscosityRow) + concentration.capacity() * sizeof(ConcentrationRow);
+           earlier.capacity() * sizeof(EarlierRates) + start.capacity() * sizeof(StepStart) +
+           predicted.capacity() * sizeof(FluidRow) + gradient.capacity() * sizeof(GradientRow) +
+           corrected.capacity() * sizeof(CorrectedRow) + concentration.capacity() * sizeof(ConcentrationRow) +
+           (viscosity.capacity() + start_viscosity.capacity()) * sizeof(ViscosityRow);
   }
 
  private:

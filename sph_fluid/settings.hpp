@@ -44,6 +44,19 @@ enum class Precision {
   mixed,  ///< pairs in single precision, on places relative to their cluster
 };
 
+/// How the fluid advances in time (docs/equations.md, section 7).
+enum class Integrator {
+  leapfrog,  ///< kick-drift-kick, its one evaluation a step at a predicted state
+  ssp_rk3,   ///< Runge-Kutta, strong-stability-preserving, third order: three evaluations a step
+};
+
+/// Courant number of a scene that names none. C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2,
+/// where waves grow (docs/performance.md).
+inline double default_courant(Integrator integrator, KernelName kernel) {
+  const double leapfrog = kernel == KernelName::wendland_c6 ? 0.27 : 0.35;
+  return integrator == Integrator::ssp_rk3 ? 2.0 * leapfrog : leapfrog;
+}
+
 /// What a wall does to the flow along it.
 enum class FaceCondition { no_slip, free_slip, open };
 
@@ -137,6 +150,7 @@ struct Numerics {
   double beta = 10.0;         ///< and the quadratic one; with a switch, where alpha is at its bound
   double alpha_min = 0.1;     ///< with a switch: alpha's lower bound
   double shifting = 0.0;      ///< share of the usual shift of particles towards uniform concentration, 0..1 (shifting.hpp)
+  Integrator integrator = Integrator::leapfrog;
   double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density

@@ -1,5 +1,5 @@
 // What a Fluid is made of: its particles, walls and the passes of a step. Set-up is in solver_start.cpp, the step in
-// solver_step.cpp, what others ask in solver_queries.cpp.
+// solver_step.cpp (of the Runge-Kutta method in ssp_rk3.cpp), what others ask in solver_queries.cpp.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +47,17 @@ struct Disturbed {
   }
 };
 
+/// Where a moving wall is, as an evaluation sees it.
+struct WallMotion {
+  std::vector<Vec3> position, velocity, normal;
+};
+
+/// What the fluid has given away: sums that a step adds to.
+struct Exchange {
+  double dissipated, wall_work;            // [J]
+  std::vector<std::vector<Vec3>> impulse;  // per moving wall [N s]
+};
+
 struct Fluid::Implementation {
   Settings settings;
   PairLoops loops;
@@ -70,6 +81,7 @@ struct Fluid::Implementation {
   std::vector<ForceRow> wall_force;
   CellList wall_cells;
   bool walls_packed = false;
+  std::vector<WallMotion> walls_seen;            // at the last evaluation, per moving wall; of the Runge-Kutta method
   int threads = 1;
   std::vector<Scratch> scratch;
   PassTimers timers;
@@ -104,21 +116,33 @@ struct Fluid::Implementation {
   void watch_for_signals();
 
   // The step and its passes: solver_step.cpp.
+  void step(double dt) { settings.numerics.integrator == Integrator::ssp_rk3 ? step_ssp_rk3(dt) : step_leapfrog(dt); }
   /// Predict, evaluate once, correct: kick-drift-kick with rates taken at a predicted state. A predictor by the last rates
   /// alone makes waves grow by a relative (omega dt)^4/4 a step; extrapolating them by a sixth of their last change cancels
   /// that term: an undamped wave still grows, by 1e-3 a step at omega dt = 0.45, but by O((omega dt)^6), at no further
   /// evaluation.
-  void step(double dt);
+  void step_leapfrog(double dt);
   /// Rates at the present positions, with the state predicted for the end of a step (see equation_of_state).
   void evaluate(double half, double bend);
   /// Half of the kick, with the moving walls' half of the impulse. False: a particle is beyond `fastest` now.
   bool half_kick(double dt);
   void drift(double dt);
+  /// A particle that crosses a symmetry plane changes places with its image.
+  void cross_symmetry_planes();
+  /// Heat that no energy field takes up, and what the moving walls receive, over `duration` at the last evaluation's rates.
+  void book_exchange(double duration);
   /// After an evaluation that went wrong: back by half of the drift, to the state between the two kicks. All of it is
   /// finite, the ledger holds for it, and its pressures are evaluated; it has no rates.
   void stand_half_way(double dt);
+  /// The end of a stop: pressures of the present state, and no rates.
+  void stand_still();
   /// The coefficients of viscosity of a scheme with a switch over dt, their rates held (switch_scheme.hpp).
   void advance_viscosity(double dt);
+  /// Rates at which a particle's coefficient goes to its lower and to its upper bound [1/s].
+  struct SwitchRates {
+    double decay, source;
+  };
+  SwitchRates switch_rates(std::uint32_t i) const;
   /// Moves particles down the gradient of their concentration (shifting.hpp); no other part of their state changes.
   void shift(double dt);
   void sort();
@@ -139,6 +163,19 @@ struct Fluid::Implementation {
   /// pressure's work.
   void finish_rates();
   void wall_forces();
+
+  // Three stages a step: ssp_rk3.cpp. Moving walls are as their owner shows them at the end of the step; before it they are where
+  // the last step left them, and in its middle on the cubic through both.
+  void step_ssp_rk3(double dt);
+  /// From u and its rates to (1 - share) u_start + share (u + dt L(u)); `weight` is that of these rates in the step. False: a
+  /// particle is beyond `fastest` now.
+  bool stage(double dt, double share, double weight, bool shifts);
+  Exchange exchange() const;
+  /// Back to the step's beginning, with the exchange that was booked then.
+  void take_back(const Exchange& booked);
+  std::vector<WallMotion> wall_motions() const;
+  static WallMotion midway(const WallMotion& before, const WallMotion& after, double dt);
+  static void show(MovingWall& wall, const WallMotion& motion);
 
   // What others ask: solver_queries.cpp.
   StepLimit step_limit();

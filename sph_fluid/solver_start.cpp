@@ -29,7 +29,8 @@ Fluid::Implementation::Implementation(const Settings& s)
   kernel_scale = 1.0 / lattice_factor(s.numerics.kernel, s.numerics.eta, s.dimension);
   fill();
   pack_walls();
-  particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0);
+  particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0,
+                      s.numerics.integrator == Integrator::ssp_rk3);
   evaluate(0.0, 0.0);
   watch_for_signals();
 }

@@ -21,7 +21,7 @@ double advanced_density(double rho, double rate_times_step) {
 
 }  // namespace
 
-void Fluid::Implementation::step(double dt) {
+void Fluid::Implementation::step_leapfrog(double dt) {
   if (!evaluated) evaluate(0.0, 0.0);
   {
     const auto timer = timers.measure("integration");
@@ -57,6 +57,7 @@ void Fluid::Implementation::evaluate(double half, double bend) {
   pairs(pair_input());
   finish_rates();
   wall_forces();
+  if (settings.numerics.integrator == Integrator::ssp_rk3) walls_seen = wall_motions();
   evaluated = true;
 }
 
@@ -71,24 +72,33 @@ void Fluid::Implementation::drift(double dt) {
     p.z[i] += dt * p.vz[i];
   }
   if (settings.numerics.shifting > 0.0) shift(dt);
-  // A particle that crosses a symmetry plane changes places with its image.
+  cross_symmetry_planes();
+}
+
+void Fluid::Implementation::cross_symmetry_planes() {
+  Particles& p = particles;
   const struct {
     std::vector<double>&x, &v;
     double SumRow::*a;
     float EarlierRates::*earlier;
-  } axes[3] = {{p.x, p.vx, &SumRow::fx, &EarlierRates::ax},
-               {p.y, p.vy, &SumRow::fy, &EarlierRates::ay},
-               {p.z, p.vz, &SumRow::fz, &EarlierRates::az}};
+    double StepStart::*x0, StepStart::*v0;
+  } axes[3] = {{p.x, p.vx, &SumRow::fx, &EarlierRates::ax, &StepStart::x, &StepStart::vx},
+               {p.y, p.vy, &SumRow::fy, &EarlierRates::ay, &StepStart::y, &StepStart::vy},
+               {p.z, p.vz, &SumRow::fz, &EarlierRates::az, &StepStart::z, &StepStart::vz}};
   for (int axis = 0; axis < 3; ++axis) {
     if (!settings.symmetry.axis[axis]) continue;
-    const auto& [x, v, a, earlier] = axes[axis];
+    const auto& [x, v, a, earlier, x0, v0] = axes[axis];
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < p.size(); ++i)
       if (x[i] < 0.0) {
         x[i] = -x[i];
         v[i] = -v[i];
         p.rate[i].*a = -(p.rate[i].*a);
-        p.earlier[i].*earlier = -(p.earlier[i].*earlier);
+        if (!p.earlier.empty()) p.earlier[i].*earlier = -(p.earlier[i].*earlier);
+        if (!p.start.empty()) {
+          p.start[i].*x0 = -(p.start[i].*x0);
+          p.start[i].*v0 = -(p.start[i].*v0);
+        }
       }
   }
 }
@@ -111,36 +121,48 @@ bool Fluid::Implementation::half_kick(double dt) {
   }
   clamps.density += clamped;
   if (!p.viscosity.empty()) advance_viscosity(half);
+  book_exchange(half);
+  return largest_square < fastest * fastest;
+}
+
+void Fluid::Implementation::book_exchange(double duration) {
+  const Particles& p = particles;
   // Heat counts as dissipated where no energy field takes it up.
   for (const Group& group : groups)
     if (!materials::uses_energy(group.body->material.law))
-      dissipated += half * blocked_sum<double>(group.begin, group.end,
+      dissipated += duration * blocked_sum<double>(group.begin, group.end,
                                                [&](std::uint32_t i) { return p.mass[i] * p.rate[i].heat; });
   for (std::size_t w = 0; w < moving.size(); ++w)
-    for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += half * moving_force[w][k];
-  wall_work += half * wall_power;
-  return largest_square < fastest * fastest;
+    for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += duration * moving_force[w][k];
+  wall_work += duration * wall_power;
 }
 
 void Fluid::Implementation::stand_half_way(double dt) {
   drift(-0.5 * dt);
   time += 0.5 * dt;
   evaluation_time = time;
+  stand_still();
+}
+
+void Fluid::Implementation::stand_still() {
   std::fill(particles.rate.begin(), particles.rate.end(), SumRow{});
   sort();
   equation_of_state(0.0, 0.0);
 }
 
+Fluid::Implementation::SwitchRates Fluid::Implementation::switch_rates(std::uint32_t i) const {
+  const FluidRow& q = particles.predicted[i];
+  return {0.2 * q.c / q.h, std::max(particles.rate[i].compression, 0.0)};
+}
+
 void Fluid::Implementation::advance_viscosity(double dt) {
   const double low = settings.numerics.alpha_min, high = settings.numerics.alpha;
-  Particles& p = particles;
 #pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const FluidRow& q = p.predicted[i];
-    const double decay = 0.2 * q.c / q.h, source = std::max(p.rate[i].compression, 0.0);
+  for (std::uint32_t i = 0; i < particles.size(); ++i) {
+    const auto [decay, source] = switch_rates(i);
     // Linear in alpha: its solution stays within the bounds for any step.
     const double goal = (decay * low + source * high) / (decay + source);
-    double& alpha = p.viscosity[i].alpha;
+    double& alpha = particles.viscosity[i].alpha;
     alpha = goal + (alpha - goal) * std::exp(-(decay + source) * dt);
   }
 }
@@ -206,7 +228,7 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
 #pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held, empty)
   for (std::uint32_t i = group.begin; i < group.end; ++i) {
     const SumRow& rate = p.rate[i];
-    const EarlierRates& earlier = p.earlier[i];
+    const EarlierRates earlier = p.earlier.empty() ? EarlierRates{} : p.earlier[i];
     const double energy = has_energy ? p.energy[i] + half * rate.heat : 0.0;
     FluidRow& q = p.predicted[i];
     q.vx = p.vx[i] + half * rate.fx + bend * (rate.fx - earlier.ax);

@@ -141,6 +141,8 @@ TEST(Read, EachKernelHasItsOwnSmoothingLength) {
     EXPECT_EQ(numerics.courant, name == sph::KernelName::wendland_c6 ? 0.27 : 0.35);
     EXPECT_EQ(numerics.eta, sph::with_kernel(name, [](auto kernel) { return kernel.usual_eta; })) << word;
   }
+  EXPECT_EQ(read_text(two_gases + "[scheme]\nintegrator = \"ssp_rk3\"\n").fluid.numerics.courant, 0.7);
+  EXPECT_EQ(read_text(two_gases + "[scheme]\nintegrator = \"ssp_rk3\"\nkernel = \"wendland_c6\"\n").fluid.numerics.courant, 0.54);
 }
 
 /// Each scheme brings what it is published with, where the scene does not say otherwise.
