@@ -82,6 +82,7 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   record.program = options.program;
   record.time_s = simulation.time();
   record.steps = simulation.steps();
+  if (const sph::Fluid* fluid = simulation.fluid()) record.fluid_substeps = fluid->substeps();
   record.wall_time_s = since.wall();
   record.cpu_time_s = since.cpu();
   record.threads = omp_get_max_threads();

@@ -62,6 +62,7 @@ std::string to_json(const RunRecord& record) {
   if (!record.program.empty()) json["program"] = record.program;
   json["time_s"] = record.time_s;
   json["steps"] = record.steps;
+  json["fluid_substeps"] = record.fluid_substeps;
   json["wall_time_s"] = record.wall_time_s;
   json["cpu_time_s"] = record.cpu_time_s;
   json["threads"] = record.threads;
@@ -103,6 +104,7 @@ RunRecord read_summary(const std::filesystem::path& path) {
   record.program = text(json, "program");
   get(json, "time_s", record.time_s);
   get(json, "steps", record.steps);
+  get(json, "fluid_substeps", record.fluid_substeps);
   get(json, "wall_time_s", record.wall_time_s);
   get(json, "cpu_time_s", record.cpu_time_s);
   get(json, "threads", record.threads);

@@ -22,6 +22,7 @@ struct RunRecord {
   std::string message;                        ///< the reason, where status is not "done"; left out when empty
   double time_s = 0;                          ///< simulated time reached
   std::int64_t steps = 0;
+  std::int64_t fluid_substeps = 0;            ///< of bodies with steps of their own, beside `steps`
   double wall_time_s = 0, cpu_time_s = 0;
   int threads = 1;
   std::int64_t particles = 0;                 ///< moving ones, of fluid and solids

@@ -89,6 +89,12 @@ void read_scheme(const TableReader& top, Draft& draft) {
   numerics.courant = sph::default_courant(numerics.integrator, numerics.kernel);
   table.read("courant", numerics.courant);
   table.read("fixed_step", numerics.fixed_step);
+  if (table.read("local_steps", numerics.local_steps) && numerics.local_steps && numerics.integrator != sph::Integrator::leapfrog)
+    table.complain("local_steps", "scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; "
+                                  "leave one of them out");
+  if (numerics.local_steps && numerics.shifting > 0.0)
+    table.complain("local_steps", "scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one "
+                                  "for all; leave one of them out");
   table.read("signal", numerics.signal);
   table.read("h_low", numerics.h_low);
   table.read("h_high", numerics.h_high);

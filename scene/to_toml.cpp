@@ -343,6 +343,7 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.put("integrator", numerics.integrator == sph::Integrator::ssp_rk3 ? "ssp_rk3" : "leapfrog");
   writer.put("courant", numerics.courant);
   writer.put("fixed_step", numerics.fixed_step);
+  if (numerics.integrator == sph::Integrator::leapfrog) writer.put("local_steps", numerics.local_steps);
   writer.put("signal", numerics.signal);
   writer.put("h_low", numerics.h_low);
   writer.put("h_high", numerics.h_high);

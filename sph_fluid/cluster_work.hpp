@@ -134,13 +134,14 @@ class ClusterWork {
 
   /// Returns the number of true neighbours met, directed.
   long long run() {
-    if (out_of_reach()) return 0;
+    if (out_of_reach() || (own_.fast ? in_.choice == PairChoice::slow : !Pass::symmetric && in_.choice == PairChoice::fast)) return 0;
     for (int g = 0; g < in_.group_count; ++g) with_group(g);
-    if (in_.wall_count > 0) with_walls();
+    const bool with_own = takes(own_, own_);
+    if (in_.wall_count > 0 && with_own) with_walls();
     store_sums();
     double met = 0;
     for (int l = 0; l < W; ++l) met += 2.0 * double(met_[l]);
-    return (long long)(met)-cluster_.count;  // a particle is not its own neighbour
+    return (long long)(met) - (with_own ? cluster_.count : 0);  // a particle is not its own neighbour
   }
 
  private:
@@ -150,6 +151,11 @@ class ClusterWork {
       out = out || (in_.partly && (box_.low[a] - in_.disturbed_high[a] > in_.margin ||
                                    in_.disturbed_low[a] - box_.high[a] > in_.margin));
     return out;
+  }
+
+  /// A wall belongs to the particle that it meets: `one` twice.
+  bool takes(const GroupView& one, const GroupView& other) const {
+    return in_.choice == PairChoice::all || (one.fast || other.fast) == (in_.choice == PairChoice::fast);
   }
 
   double h_of(int l) const { return own_.variable_h ? in_.fluid[cluster_.begin + l].h : own_.h_max; }
@@ -167,6 +173,7 @@ class ClusterWork {
     // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
     // an image, i is an image too, and what the image receives is mirrored back.
     if (Pass::symmetric && g < cluster_.group) return;
+    if (Pass::symmetric && !takes(own_, other)) return;
     if (Pass::partners == Partners::own_body && !(g == cluster_.group && own_.own_pairs)) return;
     if (Pass::partners == Partners::other_bodies && g == cluster_.group) return;
     const std::uint32_t next = cluster_.begin + cluster_.count;

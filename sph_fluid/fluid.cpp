@@ -29,20 +29,32 @@ std::size_t Fluid::memory_bytes() const {
                       s.wall_origin.capacity() * (sizeof(Implementation::WallOrigin) + 3 * sizeof(double)) +
                       s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow);
   for (const Group& group : s.groups) bytes += group.cells.memory_bytes();
+  for (const Group& group : s.near.groups) bytes += group.cells.memory_bytes();
+  bytes += s.near.particles.memory_bytes() + s.near.blocks.memory_bytes();
   return bytes + s.wall_cells.memory_bytes();
 }
 double Fluid::time() const { return self_->time; }
 long Fluid::steps() const { return self_->steps; }
+long Fluid::substeps() const { return self_->substeps; }
+std::vector<std::string> Fluid::fast_bodies() const {
+  std::vector<std::string> names;
+  for (const Group& group : self_->groups)
+    if (group.fast) names.push_back(group.body->name);
+  return names;
+}
 
 int Fluid::add_moving_wall(MovingWall wall) {
   wall.impulse.assign(wall.position.size(), Vec3::Zero());
   self_->moving_force.emplace_back(wall.position.size(), Vec3::Zero());
   self_->moving.push_back(std::move(wall));
   self_->everywhere = true;
+  self_->join();
   self_->evaluated = false;
   return int(self_->moving.size()) - 1;
 }
-const std::vector<Vec3>& Fluid::wall_force(int index) const { return self_->moving_force.at(index); }
+const std::vector<Vec3>& Fluid::wall_force(int index) const {
+  return (self_->choice == PairChoice::all ? self_->moving_force : self_->whole_force).at(index);
+}
 MovingWall& Fluid::moving_wall(int index) { return self_->moving.at(index); }
 
 StepLimit Fluid::step_limit() { return self_->step_limit(); }

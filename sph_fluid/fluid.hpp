@@ -84,6 +84,8 @@ class Fluid {
   std::size_t memory_bytes() const;
   double time() const;
   long steps() const;
+  long substeps() const;                           ///< of fast bodies, where bodies have steps of their own
+  std::vector<std::string> fast_bodies() const;    ///< those that take substeps at present
 
   /// Adds a wall that somebody else moves; keep the index. Its particles count from the next step on.
   int add_moving_wall(MovingWall wall);

@@ -93,6 +93,13 @@ struct CellGrid {
   const std::uint32_t* start;  ///< count[0]*count[1]*count[2] + 1 entries; first particle of each cell, x fastest
 };
 
+/// Which pairs a pass takes where bodies have steps of their own (local_steps.cpp).
+enum class PairChoice : int {
+  all,
+  slow,  ///< of two slow particles
+  fast,  ///< with at least one fast particle
+};
+
 /// Particles that share a material and a policy for the smoothing length; contiguous, sorted by cell.
 struct GroupView {
   std::uint32_t begin, end;
@@ -101,6 +108,7 @@ struct GroupView {
   bool variable_h;
   bool gas;                 ///< bubble gas or detonation products, not liquid
   std::uint32_t material = 0;  ///< one number for all groups of one material
+  bool fast = false;        ///< see PairChoice
   bool own_pairs = true;    ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
 };
 
@@ -138,6 +146,7 @@ struct KernelChoice {
 
 /// Everything that the loop over pairs reads.
 struct PairInput {
+  PairChoice choice;                   ///< gradients are then of slow or of fast particles only, among all neighbours
   int dimension;
   double kernel_scale;                 ///< of the kernel's gradient: 1 over its lattice factor (kernels.hpp), or 1
   const double *x, *y, *z;

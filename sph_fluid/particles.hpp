@@ -15,9 +15,15 @@ struct EarlierRates {
   float compression = 0;         ///< [1/s]
 };
 
-/// State at the beginning of a step, for integrators of several stages.
+/// State at the beginning of a step, for stages to refer to and for a step that is not taken to go back to.
 struct StepStart {
   double x, y, z, vx, vy, vz, rho, energy;
+};
+
+/// Rates that a set of particles holds beside those it advances by (local_steps.cpp).
+struct OtherRates {
+  SumRow rate;
+  EarlierRates earlier;
 };
 
 struct Particles {
@@ -33,8 +39,11 @@ struct Particles {
   /// the viscous heating, or the whole rate of `energy` where that is a field [W/kg].
   std::vector<SumRow> rate;
   std::vector<EarlierRates> earlier;  ///< of the leapfrog
-  std::vector<StepStart> start;       ///< of the Runge-Kutta method, as the next
+  std::vector<StepStart> start;       ///< of the Runge-Kutta method and of local steps, as the next
   std::vector<ViscosityRow> start_viscosity;
+  /// Of local steps: in the whole set the rates from pairs with a fast particle, in the set near the fast ones those from slow pairs.
+  std::vector<OtherRates> other;
+  std::vector<std::uint32_t> place;   ///< of a part: index in the whole
 
   /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
   /// memory serves as scratch.
@@ -79,10 +88,16 @@ struct Particles {
     reorder(viscosity, first, order);
     reorder(start, first, order);
     reorder(start_viscosity, first, order);
+    reorder(other, first, order);
+    reorder(place, first, order);
+    if (place.empty()) return;
+    reorder(gradient, first, order);  // those of slow particles are kept
+    reorder(corrected, first, order);
   }
 
   /// The present state becomes that at the beginning of the step.
   void keep_start() {
+    start.resize(size());
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < size(); ++i)
       start[i] = {x[i], y[i], z[i], vx[i], vy[i], vz[i], rho[i], energy.empty() ? 0.0 : energy[i]};
@@ -115,6 +130,7 @@ struct Particles {
   std::size_t memory_bytes() const {
     std::size_t bytes = 0;
     for (const auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass, &energy}) bytes += a->capacity() * sizeof(double);
+    bytes += other.capacity() * sizeof(OtherRates) + place.capacity() * sizeof(std::uint32_t);
     return bytes + id.capacity() * sizeof(std::uint32_t) + rate.capacity() * sizeof(SumRow) +
            earlier.capacity() * sizeof(EarlierRates) + start.capacity() * sizeof(StepStart) +
            predicted.capacity() * sizeof(FluidRow) + gradient.capacity() * sizeof(GradientRow) +
@@ -139,5 +155,13 @@ struct Particles {
     }
   }
 };
+
+/// Calls visit(array of one, array of the other) for all that changes in a step.
+template <class One, class Other, class Visit>
+void for_each_state(One& one, Other& other, Visit visit) {
+  visit(one.x, other.x), visit(one.y, other.y), visit(one.z, other.z);
+  visit(one.vx, other.vx), visit(one.vy, other.vy), visit(one.vz, other.vz);
+  visit(one.rho, other.rho), visit(one.energy, other.energy), visit(one.viscosity, other.viscosity);
+}
 
 }  // namespace undex::sph

@@ -153,6 +153,7 @@ struct Numerics {
   Integrator integrator = Integrator::leapfrog;
   double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
+  bool local_steps = false;   ///< may bodies with a much shorter step take substeps (leapfrog without fixed_step and shifting only)?
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density
   /// Particles at rest are worked on from when a signal of this share of the sound speed (or of the density) comes within
   /// reach; 0: always.

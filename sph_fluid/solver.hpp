@@ -2,11 +2,14 @@
 // solver_step.cpp (of the Runge-Kutta method in ssp_rk3.cpp), what others ask in solver_queries.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "sph_fluid/blocks.hpp"
 #include "sph_fluid/cell_list.hpp"
 #include "sph_fluid/fluid.hpp"
@@ -19,11 +22,13 @@ namespace undex::sph {
 struct Group {
   const Body* body = nullptr;
   std::uint32_t begin = 0, end = 0;
+  std::uint32_t first_id = 0;
+  bool fast = false;                     // does it take substeps (local_steps.cpp)?
   double spacing = 0, h0 = 0;            // [m]
   double h_max = 0;                      // [m], the largest at present
   std::uint32_t material = 0;            // one number for all groups of one material
   double rest_density = 0;               // [kg/m^3], of what no signal has reached
-  std::vector<double> lighting;          // burning charges only, by id - begin [s]
+  std::vector<double> lighting;          // burning charges only, by id - first_id [s]
   CellList cells;
 };
 
@@ -58,19 +63,33 @@ struct Exchange {
   std::vector<std::vector<Vec3>> impulse;  // per moving wall [N s]
 };
 
-struct Fluid::Implementation {
-  Settings settings;
-  PairLoops loops;
-  double kernel_scale = 1;                       // 1 over the kernel's lattice factor
+/// Particles that take a step together, and what the passes over them work with: all, or (local_steps.cpp) some.
+struct ParticleSet {
   Particles particles;
   std::vector<Group> groups;
   std::vector<GroupView> views;
   BlockOrder blocks;
   std::vector<long long> interactions;           // per block
+  PairChoice choice = PairChoice::all;           // whose rates Particles::rate holds
+  std::vector<std::vector<Vec3>> moving_force;   // at the last evaluation, per moving wall [N]
+  double wall_power = 0;                         // work on moving walls at the last evaluation [W]
+  double reach = 0;                              // largest distance of a pair [m]
+};
 
+/// A body's own largest step.
+struct BodyLimit {
+  double step = std::numeric_limits<double>::infinity();  // [s]
+  std::uint32_t particle = 0;
+  const char* criterion = "Courant";
+};
+
+struct Fluid::Implementation : ParticleSet {
+  Settings settings;
+  PairLoops loops;
+  double kernel_scale = 1;                       // 1 over the kernel's lattice factor
   std::vector<MovingWall> rigid;
   std::vector<MovingWall> moving;
-  std::vector<std::vector<Vec3>> moving_force;   // at the last evaluation, per moving wall [N]
+  std::vector<std::vector<Vec3>> whole_force;    // of local steps: the sum of both sets', per moving wall [N]
   struct WallOrigin {
     int wall;             // index into `moving`, or -1 - index into `rigid`
     std::uint32_t point;
@@ -81,7 +100,7 @@ struct Fluid::Implementation {
   std::vector<ForceRow> wall_force;
   CellList wall_cells;
   bool walls_packed = false;
-  std::vector<WallMotion> walls_seen;            // at the last evaluation, per moving wall; of the Runge-Kutta method
+  std::vector<WallMotion> walls_seen;            // at the last evaluation, per moving wall; unless all take one leapfrog's step
   int threads = 1;
   std::vector<Scratch> scratch;
   PassTimers timers;
@@ -91,14 +110,21 @@ struct Fluid::Implementation {
   bool evaluated = false;
   bool sound = true;                             // is the last evaluation finite, and slower than `fastest`?
   double dissipated = 0, wall_work = 0;
-  double wall_power = 0;                         // work on moving walls at the last evaluation [W]
   long long interaction_sum = 0;
   Clamps clamps;
   Disturbed disturbed;
-  double reach = 0;                              // largest distance of a pair [m]
   bool everywhere = true;                        // are all particles worked on, signal or not?
   double evaluation_time = 0;                    // of the state that rates are evaluated at [s]
-  double last_step = 0;                          // [s]
+  double last_step = 0;                          // [s]; 0: none that the predictor could go on
+  bool limits_known = false;                     // has step_limit been asked since the last step?
+
+  // Of local steps.
+  ParticleSet near;                              // the fast bodies and the slow particles near them
+  bool near_walls = false;                       // has a fast particle a wall's within reach?
+  double last_substep = 0;                       // [s], as last_step
+  double slow_ahead = 0, slow_bend = 0;          // weights of the slow pairs' rates in what fast pairs see [s]
+  static constexpr int most_substeps = 8;        // beyond it impulses of slow pairs come near the period of fast waves
+  long substeps = 0;
 
   explicit Implementation(const Settings& settings);
   Implementation(const Implementation&) = delete;
@@ -116,7 +142,14 @@ struct Fluid::Implementation {
   void watch_for_signals();
 
   // The step and its passes: solver_step.cpp.
-  void step(double dt) { settings.numerics.integrator == Integrator::ssp_rk3 ? step_ssp_rk3(dt) : step_leapfrog(dt); }
+  void step(double dt);
+  /// A step of several evaluations. Where one goes wrong, all is put back to the step's beginning and has no rates.
+  void step_or_stay(double dt);
+  Exchange exchange() const;
+  /// Throws NumericalStop unless all is well.
+  void require(bool well) const {
+    if (!well) throw NumericalStop(what_is_wrong());
+  }
   /// Predict, evaluate once, correct: kick-drift-kick with rates taken at a predicted state. A predictor by the last rates
   /// alone makes waves grow by a relative (omega dt)^4/4 a step; extrapolating them by a sixth of their last change cancels
   /// that term: an undamped wave still grows, by 1e-3 a step at omega dt = 0.45, but by O((omega dt)^6), at no further
@@ -127,6 +160,8 @@ struct Fluid::Implementation {
   /// Half of the kick, with the moving walls' half of the impulse. False: a particle is beyond `fastest` now.
   bool half_kick(double dt);
   void drift(double dt);
+  /// The predictor's weight of the last change of the rates.
+  static double bend_of(double dt, double last) { return last > 0 ? dt * std::min(2.0, dt / last) / 6.0 : 0.0; }
   /// A particle that crosses a symmetry plane changes places with its image.
   void cross_symmetry_planes();
   /// Heat that no energy field takes up, and what the moving walls receive, over `duration` at the last evaluation's rates.
@@ -170,15 +205,30 @@ struct Fluid::Implementation {
   /// From u and its rates to (1 - share) u_start + share (u + dt L(u)); `weight` is that of these rates in the step. False: a
   /// particle is beyond `fastest` now.
   bool stage(double dt, double share, double weight, bool shifts);
-  Exchange exchange() const;
-  /// Back to the step's beginning, with the exchange that was booked then.
-  void take_back(const Exchange& booked);
   std::vector<WallMotion> wall_motions() const;
-  static WallMotion midway(const WallMotion& before, const WallMotion& after, double dt);
+  /// The wall at a share of the step, on the cubic through both its ends.
+  static WallMotion between(const WallMotion& before, const WallMotion& after, double dt, double share);
   static void show(MovingWall& wall, const WallMotion& motion);
+
+  // Steps of bodies' own: local_steps.cpp. The whole set then holds the slow pairs' rates.
+  bool may_part() const {
+    const Numerics& n = settings.numerics;
+    return n.local_steps && n.integrator == Integrator::leapfrog && !n.fixed_step && !(n.shifting > 0.0) && groups.size() > 1;
+  }
+  /// Parts the bodies into fast and slow ones, or joins them, where that saves work; rates are then evaluated anew.
+  /// Returns whether anything has changed.
+  bool choose_fast_bodies(const std::vector<BodyLimit>& limits);
+  /// One step of the slow bodies, from rates to rates.
+  void step_local(double dt);
+  /// Fills the near set: all fast particles, and the slow ones that they may meet within dt.
+  void gather_near(double dt);
+  void scatter_near();
+  void add_wall_forces();
+  void join();
 
   // What others ask: solver_queries.cpp.
   StepLimit step_limit();
+  BodyLimit limit_of(const Group& group) const;
   const Body& body_of(std::uint32_t i) const;
   const char* remedy() const;
   /// Why the run cannot go on: which particle, where, and a remedy.

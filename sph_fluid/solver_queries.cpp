@@ -28,27 +28,30 @@ double barotropic_energy(const materials::FluidLaw& law, double rho) {
 
 // ---- What others ask ------------------------------------------------------------------------------------------------
 
-StepLimit Fluid::Implementation::step_limit() {
-  if (!evaluated) evaluate(0.0, 0.0);
-  if (!sound) throw NumericalStop(what_is_wrong());  // as the scene was given: a step does not end so
-  StepLimit limit;
+BodyLimit Fluid::Implementation::limit_of(const Group& group) const {
   const Numerics& numerics = settings.numerics;
-  limit.step = std::numeric_limits<double>::infinity();
   // Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, eq. 10.2, for a viscosity; a Riemann flux moves with the fluid.
   const bool viscous = is_viscous(numerics.scheme);
   const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
   const double inverse_alpha = 1.0 / numerics.alpha;
-  std::uint32_t worst = 0;
-  const char* criterion = "Courant";
+  const bool parted = !particles.other.empty();
+  BodyLimit limit;
+  limit.particle = group.begin;
 #pragma omp parallel
   {
-    double best = std::numeric_limits<double>::infinity();
-    std::uint32_t where = 0;
-    const char* by = criterion;
+    BodyLimit mine;
 #pragma omp for schedule(static)
-    for (std::uint32_t i = 0; i < particles.size(); ++i) {
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
       const FluidRow& q = particles.predicted[i];
-      const SumRow& rate = particles.rate[i];
+      SumRow rate = particles.rate[i];
+      if (parted) {
+        const SumRow& other = particles.other[i].rate;
+        rate.fx += other.fx;
+        rate.fy += other.fy;
+        rate.fz += other.fz;
+        rate.compression += other.compression;
+        rate.closing = std::max(rate.closing, other.closing);
+      }
       const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
       const double share = particles.viscosity.empty() ? 1.0 : particles.viscosity[i].alpha * inverse_alpha;
       const double signal = q.c + share * (alpha * q.c + beta * rate.closing);
@@ -56,28 +59,46 @@ StepLimit Fluid::Implementation::step_limit() {
       const double push = 0.25 * std::sqrt(q.h / std::sqrt(a2 + 1e-300));
       const double squeeze = 0.2 / (std::abs(rate.compression) + 1e-300);
       const double least = std::min({courant, push, squeeze});
-      if (least < best) {
-        best = least;
-        where = i;
-        by = least == courant ? "Courant" : least == push ? "force" : "density";
+      if (least < mine.step) {
+        mine.step = least;
+        mine.particle = i;
+        mine.criterion = least == courant ? "Courant" : least == push ? "force" : "density";
       }
     }
 #pragma omp critical
     {
       // The particle's place breaks ties, so that the answer does not depend on who comes first.
-      if (best < limit.step || (best == limit.step && where < worst)) {
-        limit.step = best;
-        worst = where;
-        criterion = by;
-      }
+      if (mine.step < limit.step || (mine.step == limit.step && mine.particle < limit.particle)) limit = mine;
     }
   }
-  limit.criterion = criterion;
-  limit.particle = particles.id[worst];
-  limit.position = {particles.x[worst], particles.y[worst], particles.z[worst]};
-  limit.body = body_of(worst).name;
-  if (numerics.fixed_step) {
-    limit.step = *numerics.fixed_step;
+  return limit;
+}
+
+StepLimit Fluid::Implementation::step_limit() {
+  if (!evaluated) evaluate(0.0, 0.0);
+  require(sound);  // as the scene was given: a step does not end so
+  std::vector<BodyLimit> limits;
+  const auto find_limits = [&] {
+    limits.clear();
+    for (const Group& group : groups) limits.push_back(limit_of(group));
+  };
+  find_limits();
+  if (may_part() && choose_fast_bodies(limits)) find_limits();
+  limits_known = true;
+  BodyLimit worst;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    BodyLimit limit = limits[g];
+    if (groups[g].fast) limit.step *= most_substeps;
+    if (limit.step < worst.step) worst = limit;
+  }
+  StepLimit limit;
+  limit.step = worst.step;
+  limit.criterion = worst.criterion;
+  limit.particle = particles.id[worst.particle];
+  limit.position = {particles.x[worst.particle], particles.y[worst.particle], particles.z[worst.particle]};
+  limit.body = body_of(worst.particle).name;
+  if (settings.numerics.fixed_step) {
+    limit.step = *settings.numerics.fixed_step;
     limit.criterion = "fixed";
   }
   return limit;

@@ -46,7 +46,7 @@ void Fluid::Implementation::fill() {
     const Body& body = settings.bodies[b];
     Group group;
     group.body = &settings.bodies[b];
-    group.begin = at;
+    group.begin = group.first_id = at;
     group.spacing = body.spacing.value_or(settings.lattice.spacing);
     group.h0 = group.h_max = smoothing_length(settings, group.spacing);
     const double energy = start_energy(body), rho = start_density(body);

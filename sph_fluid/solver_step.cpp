@@ -21,8 +21,19 @@ double advanced_density(double rho, double rate_times_step) {
 
 }  // namespace
 
+void Fluid::Implementation::step(double dt) {
+  if (!evaluated || (may_part() && !limits_known)) step_limit();
+  if (settings.numerics.integrator == Integrator::ssp_rk3 || choice != PairChoice::all)
+    step_or_stay(dt);
+  else
+    step_leapfrog(dt);
+  time += dt;
+  last_step = dt;
+  ++steps;
+  limits_known = false;
+}
+
 void Fluid::Implementation::step_leapfrog(double dt) {
-  if (!evaluated) evaluate(0.0, 0.0);
   {
     const auto timer = timers.measure("integration");
     if (!half_kick(dt)) {
@@ -31,21 +42,48 @@ void Fluid::Implementation::step_leapfrog(double dt) {
       throw NumericalStop(what);
     }
     drift(dt);
+    cross_symmetry_planes();
   }
   evaluation_time = time + dt;
-  evaluate(0.5 * dt, steps > 0 ? dt * std::min(2.0, dt / last_step) / 6.0 : 0.0);
+  evaluate(0.5 * dt, bend_of(dt, last_step));
   if (!sound) {
     const std::string what = what_is_wrong();
     stand_half_way(dt);
     throw NumericalStop(what);
   }
-  {
-    const auto timer = timers.measure("integration");
-    half_kick(dt);
+  const auto timer = timers.measure("integration");
+  half_kick(dt);
+}
+
+void Fluid::Implementation::step_or_stay(double dt) {
+  const std::vector<WallMotion> walls = wall_motions();
+  const Exchange booked = exchange();
+  particles.keep_start();
+  try {
+    if (settings.numerics.integrator == Integrator::ssp_rk3)
+      step_ssp_rk3(dt);
+    else
+      step_local(dt);
+  } catch (const NumericalStop&) {
+    particles.restore_start();
+    cross_symmetry_planes();
+    dissipated = booked.dissipated;
+    wall_work = booked.wall_work;
+    for (std::size_t w = 0; w < moving.size(); ++w) {
+      show(moving[w], walls[w]);
+      moving[w].impulse = booked.impulse[w];
+    }
+    evaluation_time = time;
+    if (choice != PairChoice::all) join();
+    stand_still();
+    throw;
   }
-  time += dt;
-  last_step = dt;
-  ++steps;
+}
+
+Exchange Fluid::Implementation::exchange() const {
+  Exchange booked{dissipated, wall_work, {}};
+  for (const MovingWall& wall : moving) booked.impulse.push_back(wall.impulse);
+  return booked;
 }
 
 void Fluid::Implementation::evaluate(double half, double bend) {
@@ -57,7 +95,7 @@ void Fluid::Implementation::evaluate(double half, double bend) {
   pairs(pair_input());
   finish_rates();
   wall_forces();
-  if (settings.numerics.integrator == Integrator::ssp_rk3) walls_seen = wall_motions();
+  if (settings.numerics.integrator == Integrator::ssp_rk3 || choice == PairChoice::slow) walls_seen = wall_motions();
   evaluated = true;
 }
 
@@ -72,7 +110,6 @@ void Fluid::Implementation::drift(double dt) {
     p.z[i] += dt * p.vz[i];
   }
   if (settings.numerics.shifting > 0.0) shift(dt);
-  cross_symmetry_planes();
 }
 
 void Fluid::Implementation::cross_symmetry_planes() {
@@ -95,6 +132,10 @@ void Fluid::Implementation::cross_symmetry_planes() {
         v[i] = -v[i];
         p.rate[i].*a = -(p.rate[i].*a);
         if (!p.earlier.empty()) p.earlier[i].*earlier = -(p.earlier[i].*earlier);
+        if (!p.other.empty()) {
+          p.other[i].rate.*a = -(p.other[i].rate.*a);
+          p.other[i].earlier.*earlier = -(p.other[i].earlier.*earlier);
+        }
         if (!p.start.empty()) {
           p.start[i].*x0 = -(p.start[i].*x0);
           p.start[i].*v0 = -(p.start[i].*v0);
@@ -139,6 +180,7 @@ void Fluid::Implementation::book_exchange(double duration) {
 
 void Fluid::Implementation::stand_half_way(double dt) {
   drift(-0.5 * dt);
+  cross_symmetry_planes();
   time += 0.5 * dt;
   evaluation_time = time;
   stand_still();
@@ -152,18 +194,23 @@ void Fluid::Implementation::stand_still() {
 
 Fluid::Implementation::SwitchRates Fluid::Implementation::switch_rates(std::uint32_t i) const {
   const FluidRow& q = particles.predicted[i];
-  return {0.2 * q.c / q.h, std::max(particles.rate[i].compression, 0.0)};
+  double compression = particles.rate[i].compression;
+  if (!particles.other.empty()) compression += particles.other[i].rate.compression;
+  return {0.2 * q.c / q.h, std::max(compression, 0.0)};
 }
 
 void Fluid::Implementation::advance_viscosity(double dt) {
   const double low = settings.numerics.alpha_min, high = settings.numerics.alpha;
+  for (const Group& group : groups) {
+    if (choice != PairChoice::all && group.fast != (choice == PairChoice::fast)) continue;  // each with its own step
 #pragma omp parallel for schedule(static)
-  for (std::uint32_t i = 0; i < particles.size(); ++i) {
-    const auto [decay, source] = switch_rates(i);
-    // Linear in alpha: its solution stays within the bounds for any step.
-    const double goal = (decay * low + source * high) / (decay + source);
-    double& alpha = particles.viscosity[i].alpha;
-    alpha = goal + (alpha - goal) * std::exp(-(decay + source) * dt);
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const auto [decay, source] = switch_rates(i);
+      // Linear in alpha: its solution stays within the bounds for any step.
+      const double goal = (decay * low + source * high) / (decay + source);
+      double& alpha = particles.viscosity[i].alpha;
+      alpha = goal + (alpha - goal) * std::exp(-(decay + source) * dt);
+    }
   }
 }
 
@@ -206,9 +253,11 @@ void Fluid::Implementation::equation_of_state(double half, double bend) {
   const auto timer = timers.measure("equation of state");
   double h_max = 0;
   for (Group& group : groups) {
-    std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
-    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h, group.body->variable_h,
-                     group.material});
+    // Fast bodies have finished the step when the slow pairs' rates are evaluated.
+    const double open = group.fast && choice == PairChoice::slow ? 0.0 : 1.0;
+    std::visit([&](const auto& law) { evaluate_group(law, group, open * half, open * bend); }, group.body->material.law);
+    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h,
+                     group.body->variable_h, group.material, group.fast});
     h_max = std::max(h_max, group.h_max);
   }
   reach = loops.support * h_max;
@@ -223,25 +272,33 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
   const double inverse_dimension = 1.0 / settings.dimension, cell = std::pow(group.spacing, settings.dimension);
   const double low = settings.numerics.h_low, high = settings.numerics.h_high;
   const bool burning = group.body->burn.has_value();
+  const bool beside = choice == PairChoice::fast && !group.fast;
   double h_max = variable ? 0.0 : group.h0;
   long held = 0, empty = 0;
 #pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held, empty)
   for (std::uint32_t i = group.begin; i < group.end; ++i) {
     const SumRow& rate = p.rate[i];
     const EarlierRates earlier = p.earlier.empty() ? EarlierRates{} : p.earlier[i];
-    const double energy = has_energy ? p.energy[i] + half * rate.heat : 0.0;
+    double energy = has_energy ? p.energy[i] + half * rate.heat : 0.0;
     FluidRow& q = p.predicted[i];
     q.vx = p.vx[i] + half * rate.fx + bend * (rate.fx - earlier.ax);
     q.vy = p.vy[i] + half * rate.fy + bend * (rate.fy - earlier.ay);
     q.vz = p.vz[i] + half * rate.fz + bend * (rate.fz - earlier.az);
-    const double rho =
-        advanced_density(p.rho[i], half * rate.compression + bend * (rate.compression - earlier.compression));
+    double rho = advanced_density(p.rho[i], half * rate.compression + bend * (rate.compression - earlier.compression));
+    if (beside) {
+      const auto& [more, before] = p.other[i];
+      if (has_energy) energy += slow_ahead * more.heat;
+      q.vx += slow_ahead * more.fx + slow_bend * (more.fx - before.ax);
+      q.vy += slow_ahead * more.fy + slow_bend * (more.fy - before.ay);
+      q.vz += slow_ahead * more.fz + slow_bend * (more.fz - before.az);
+      rho = advanced_density(rho, slow_ahead * more.compression + slow_bend * (more.compression - before.compression));
+    }
     q.rho = rho;
     q.volume = p.mass[i] / rho;
     materials::PressureSound state;
     if constexpr (std::is_same_v<Law, materials::Jwl>) {
       if (burning) {
-        const std::uint32_t k = p.id[i] - group.begin;
+        const std::uint32_t k = p.id[i] - group.first_id;
         state = burning_state(law, group, k, rho, energy);
       } else {
         state = law.evaluate(rho, energy);
@@ -265,7 +322,7 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
   }
   clamps.energy += empty;
   clamps.smoothing += held;
-  group.h_max = h_max;
+  if (group.begin < group.end) group.h_max = h_max;
 }
 
 materials::PressureSound Fluid::Implementation::burning_state(const materials::Jwl& law, const Group& group, std::uint32_t k, double rho,
@@ -306,7 +363,7 @@ void Fluid::Implementation::find_signals() {
 }
 
 void Fluid::Implementation::pack_walls() {
-  if (walls_packed && moving.empty()) return;
+  if (walls_packed && (moving.empty() || (choice == PairChoice::fast && !near_walls))) return;
   if (moving.empty() && settings.walls.empty()) return;
   const auto timer = timers.measure("walls");
   // Where no wall moves they are packed once, and what they are made from is not kept.
@@ -343,6 +400,7 @@ void Fluid::Implementation::pack_walls() {
 
 PairInput Fluid::Implementation::pair_input() {
   PairInput in{};
+  in.choice = choice;
   in.partly = !everywhere;
   for (int a = 0; a < 3; ++a) {
     in.disturbed_low[a] = disturbed.low[a];
@@ -368,7 +426,7 @@ PairInput Fluid::Implementation::pair_input() {
   in.wall_y = wall_place[1].data();
   in.wall_z = wall_place[2].data();
   in.wall = wall_rows.data();
-  in.wall_count = std::uint32_t(wall_origin.size());
+  in.wall_count = choice == PairChoice::fast && !near_walls ? 0 : std::uint32_t(wall_origin.size());
   if (in.wall_count > 0) in.wall_grid = wall_cells.view();
   for (int a = 0; a < 3; ++a) in.mirror[a] = settings.symmetry.axis[a];
   in.alpha = settings.numerics.alpha;
@@ -389,7 +447,7 @@ void Fluid::Implementation::pairs(const PairInput& in) {
   if (loops.second != SecondRow::gradient) return;
   long held = 0;
   for (const GroupView& group : views)
-    if (group.gas)
+    if (group.gas && (choice == PairChoice::all || group.fast == (choice == PairChoice::fast)))
 #pragma omp parallel for schedule(static) reduction(+ : held)
       for (std::uint32_t i = group.begin; i < group.end; ++i) held += particles.gradient[i].filling <= least_filling;
   clamps.filling += held;

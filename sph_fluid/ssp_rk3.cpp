@@ -7,41 +7,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
 #include "sph_fluid/solver.hpp"
 #include "sph_fluid/sums.hpp"
 
 namespace undex::sph {
 
 void Fluid::Implementation::step_ssp_rk3(double dt) {
-  if (!evaluated) evaluate(0.0, 0.0);
   const std::vector<WallMotion> walls_before = walls_seen, walls_after = wall_motions();
-  const Exchange booked = exchange();
-  particles.keep_start();
-
   const struct {
     double share, weight, at;  // see stage(); time of the stage's result as a share of the step
     bool shifts;
   } stages[] = {{1.0, 1.0 / 6.0, 1.0, false}, {0.25, 1.0 / 6.0, 0.5, false}, {2.0 / 3.0, 2.0 / 3.0, 1.0, true}};
   for (const auto& [share, weight, at, shifts] : stages) {
-    bool good = stage(dt, share, weight, shifts && settings.numerics.shifting > 0.0);
-    if (good) {
-      evaluation_time = time + at * dt;
-      for (std::size_t w = 0; w < moving.size(); ++w)
-        show(moving[w], at < 1.0 ? midway(walls_before[w], walls_after[w], dt) : walls_after[w]);
-      evaluate(0.0, 0.0);
-      good = sound;
-    }
-    if (!good) {
-      const std::string what = what_is_wrong();
-      for (std::size_t w = 0; w < moving.size(); ++w) show(moving[w], walls_after[w]);
-      take_back(booked);
-      throw NumericalStop(what);
-    }
+    require(stage(dt, share, weight, shifts && settings.numerics.shifting > 0.0));
+    evaluation_time = time + at * dt;
+    for (std::size_t w = 0; w < moving.size(); ++w)
+      show(moving[w], at < 1.0 ? between(walls_before[w], walls_after[w], dt, at) : walls_after[w]);
+    evaluate(0.0, 0.0);
+    require(sound);
   }
-  time += dt;
-  last_step = dt;
-  ++steps;
 }
 
 bool Fluid::Implementation::stage(double dt, double share, double weight, bool shifts) {
@@ -75,36 +59,22 @@ bool Fluid::Implementation::stage(double dt, double share, double weight, bool s
   return largest_square < fastest * fastest;
 }
 
-Exchange Fluid::Implementation::exchange() const {
-  Exchange booked{dissipated, wall_work, {}};
-  for (const MovingWall& wall : moving) booked.impulse.push_back(wall.impulse);
-  return booked;
-}
-
-void Fluid::Implementation::take_back(const Exchange& booked) {
-  particles.restore_start();
-  cross_symmetry_planes();
-  dissipated = booked.dissipated;
-  wall_work = booked.wall_work;
-  for (std::size_t w = 0; w < moving.size(); ++w) moving[w].impulse = booked.impulse[w];
-  evaluation_time = time;
-  stand_still();
-}
-
 std::vector<WallMotion> Fluid::Implementation::wall_motions() const {
   std::vector<WallMotion> motions;
   for (const MovingWall& wall : moving) motions.push_back({wall.position, wall.velocity, wall.normal});
   return motions;
 }
 
-WallMotion Fluid::Implementation::midway(const WallMotion& before, const WallMotion& after, double dt) {
-  WallMotion middle = after;
-  for (std::size_t k = 0; k < middle.position.size(); ++k) {
-    middle.position[k] = 0.5 * (before.position[k] + after.position[k]) + 0.125 * dt * (before.velocity[k] - after.velocity[k]);
-    middle.velocity[k] = 0.5 * (before.velocity[k] + after.velocity[k]);
-    middle.normal[k] = (before.normal[k] + after.normal[k]).normalized();
+WallMotion Fluid::Implementation::between(const WallMotion& before, const WallMotion& after, double dt, double share) {
+  WallMotion wall = after;
+  const double s = share, r = 1.0 - share;
+  for (std::size_t k = 0; k < wall.position.size(); ++k) {
+    wall.position[k] = r * r * (1.0 + 2.0 * s) * before.position[k] + s * s * (1.0 + 2.0 * r) * after.position[k] +
+                       s * r * dt * (r * before.velocity[k] - s * after.velocity[k]);
+    wall.velocity[k] = r * before.velocity[k] + s * after.velocity[k];
+    wall.normal[k] = (r * before.normal[k] + s * after.normal[k]).normalized();
   }
-  return middle;
+  return wall;
 }
 
 void Fluid::Implementation::show(MovingWall& wall, const WallMotion& motion) {

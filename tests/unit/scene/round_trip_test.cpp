@@ -284,6 +284,20 @@ TEST(RoundTrip, ReadsBackAsTheSameScene) {
   }
 }
 
+TEST(RoundTrip, KeepsTheIntegrator) {
+  const Scratch scratch;
+  const std::string text = with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nintegrator = \"ssp_rk3\"");
+  const Scene scene = read(scratch.write(to_toml(read(scratch.write(text))), "resolved.toml"));
+  EXPECT_EQ(scene.fluid.numerics.integrator, sph::Integrator::ssp_rk3);
+  EXPECT_EQ(scene.fluid.numerics.courant, sph::default_courant(sph::Integrator::ssp_rk3, scene.fluid.numerics.kernel));
+}
+
+TEST(RoundTrip, KeepsLocalSteps) {
+  const Scratch scratch;
+  const std::string text = with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nlocal_steps = true");
+  EXPECT_TRUE(read(scratch.write(to_toml(read(scratch.write(text))), "resolved.toml")).fluid.numerics.local_steps);
+}
+
 TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   const Scratch scratch;
   const Scene scene = read(scratch.write(to_toml(read(scratch.write(rich[0]))), "resolved.toml"));
