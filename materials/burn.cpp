@@ -7,7 +7,7 @@ namespace undex::materials {
 
 double ProgrammedBurn::fraction(const Vec3& x, double t, double compression) const {
   if (instantaneous) return 1.0;
-  const double advance = (t - lighting_time(x)) * D + 0.5 * width;  // of the ramp's head beyond x [m]
+  const double advance = (t - lighting_time(x)) * D;  // of the front beyond x [m]
   if (advance >= width && advance > 0.0) return 1.0;
   double burned = advance > 0.0 ? advance / width : 0.0;
   if (cj_compression > 1.0 && compression > 1.0)

@@ -11,14 +11,14 @@
 
 namespace undex::materials {
 
-/// Share of a zone's explosive that has burned. It rises linearly while a ramp `width` wide, whose middle is the
-/// front, crosses the zone: half has burned at the lighting time. A zone that is squeezed before the front arrives burns by its compression: otherwise it
+/// Share of a zone's explosive that has burned. From the lighting time on it rises linearly, while the front
+/// crosses `width`. A zone that is squeezed before the front arrives burns by its compression: otherwise it
 /// would sit at zero pressure in front of the products, offer no resistance, and fine spacings would pile
 /// zones up ahead of the front to many times the detonation pressure.
 struct ProgrammedBurn {
   Vec3 origin = Vec3::Zero();  ///< initiation point [m]
   double D = 0.0;              ///< detonation speed [m/s], > 0 unless instantaneous
-  double width = 0.0;  ///< distance over which the burn fraction rises [m]; 0: at once. About six spacings of particles
+  double width = 0.0;  ///< distance over which the burn fraction rises [m]; 0: at once. Some spacings
   double cj_compression =
       0.0;  ///< rho_CJ/rho0 [-]: burn by compression is complete there; <= 1 switches it off
   bool instantaneous =

@@ -332,6 +332,7 @@ materials::PressureSound Fluid::Implementation::burning_state(const materials::J
   if (!burn.instantaneous) {
     // The front is timed from where the zone was at the start.
     const double since = evaluation_time - group.lighting[k];
+    // The front lies in the middle of the ramp: particles see half of the burn from either side, and no delay.
     const double timed = burn.width > 0 ? std::clamp(0.5 + since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
     // Burn by compression is not kept once the zone expands again: kept, the maximum would climb on the unburned
     // charge's own noise until it detonates by itself.

@@ -377,7 +377,7 @@ class Numerics(Case):
             with self.subTest(scene=scene, **changes):
                 folder = self.here / "out"
                 finished = self.undex("run", CASES / scene, "-o", folder, "-q", "--force", *runs.overrides({**coarse, **changes}))
-                self.ends(finished, 3, r"time [\d.e-]+ s: .*particle \d+ .*\([-\d.e+]+, [-\d.e+]+, [-\d.e+]+\) m.*fields/ ends with")
+                self.ends(finished, 3, r"time [\d.e-]+ s: .*(particle|cell) \d+.*\([-\d.e+]+, [-\d.e+]+, [-\d.e+]+\) m.*fields/ ends with")
                 record = runs.summary(folder)
                 for name, table in runs.histories(folder).items():
                     self.assertTrue(all(math.isfinite(value) for row in table.rows for value in row), name)

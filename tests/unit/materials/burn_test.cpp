@@ -128,11 +128,10 @@ TEST(ProgrammedBurn, FrontMovesAtTheDetonationSpeed) {
   const double lit = 0.05 / 8300.0;
   EXPECT_NEAR(burn.lighting_time(x), lit, 1e-18);
   EXPECT_EQ(burn.fraction(x, 0.0, 1.0), 0.0);
-  EXPECT_EQ(burn.fraction(x, lit - 0.501e-3 / 8300.0, 1.0), 0.0);
-  EXPECT_NEAR(burn.fraction(x, lit, 1.0), 0.5, 1e-9);
-  EXPECT_NEAR(burn.fraction(x, lit - 0.25e-3 / 8300.0, 1.0), 0.25, 1e-9);
-  EXPECT_NEAR(burn.fraction(x, lit + 0.499e-3 / 8300.0, 1.0), 0.999, 1e-9);
-  EXPECT_EQ(burn.fraction(x, lit + 0.501e-3 / 8300.0, 1.0), 1.0);
+  EXPECT_EQ(burn.fraction(x, 0.999 * lit, 1.0), 0.0);
+  EXPECT_NEAR(burn.fraction(x, lit + 0.25e-3 / 8300.0, 1.0), 0.25, 1e-9);
+  EXPECT_NEAR(burn.fraction(x, lit + 0.999e-3 / 8300.0, 1.0), 0.999, 1e-9);
+  EXPECT_EQ(burn.fraction(x, lit + 1.001e-3 / 8300.0, 1.0), 1.0);
   EXPECT_EQ(burn.fraction(x, 1.0, 0.1), 1.0);  // expanded products stay burned
 }
 
@@ -159,7 +158,7 @@ TEST(ProgrammedBurn, CompressionBurnsAheadOfTheFront) {
   EXPECT_EQ(burn.fraction(x, 0.0, 3.0), 1.0);
   // The larger of the two counts.
   const double lit = burn.lighting_time(x);
-  EXPECT_NEAR(burn.fraction(x, lit + 0.3e-3 / 8300.0, half), 0.8, 1e-6);
+  EXPECT_NEAR(burn.fraction(x, lit + 0.8e-3 / 8300.0, half), 0.8, 1e-6);
   burn.cj_compression = 0.0;
   EXPECT_EQ(burn.fraction(x, 0.0, 3.0), 0.0);
 }

@@ -106,7 +106,7 @@ inline Result run(const Sample& sample) {
     for (const std::uint32_t k : cells[g].order()) result.particles.push_back(all[k]);
     double h_max = 0;
     for (const Particle& q : set.particles) h_max = std::max(h_max, q.h);
-    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h, set.variable_h});
+    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h, set.variable_h, std::uint32_t(g)});
     h_largest = std::max(h_largest, h_max);
     begin = end;
   }
