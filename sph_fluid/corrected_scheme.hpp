@@ -82,36 +82,13 @@ struct RiemannCorrected {
   }
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
-    const V inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
-    const V vx = i.vx - j.vx, vy = i.vy - j.vy, vz = i.vz - j.vz;
-    // Velocities relative to v_i . e, as in riemann_scheme.hpp.
-    const V u = (vx * dx + vy * dy + vz * dz) * inverse_r;
-    const V dp = j.p - i.p;
-    const V xx = dx * dx, yy = dy * dy, zz = dz * dz, xy = 2 * dx * dy, yz = 2 * dy * dz, zx = 2 * dz * dx;
-    const auto rise = [&](const V(&s)[6]) {
-      return (s[0] * xx + s[1] * yy + s[2] * zz + s[3] * xy + s[4] * yz + s[5] * zx) * inverse_r;
-    };
-    const auto climb = [&](const V(&g)[3]) { return -(g[0] * dx + g[1] * dy + g[2] * dz); };
-    const V uL = T(0.5) * Plain::limited(u, 2 * rise(i.strain) - u), uR = u - T(0.5) * Plain::limited(u, 2 * rise(j.strain) - u);
-    const V pL = i.p + T(0.5) * Plain::limited(dp, 2 * climb(i.climb) - dp);
-    const V pR = j.p - T(0.5) * Plain::limited(dp, 2 * climb(j.climb) - dp);
-
-    const V Zi = i.rho * i.c, Zj = j.rho * j.c, Z = Zi + Zj;
-    const V inverse_Z = reciprocal(Z);
-    const V jump = uL - uR;
-    const V sound = Z * reciprocal(i.rho + j.rho);
-    const V central_p = T(0.5) * (pair.gas ? i.p + j.p : pL + pR);
-    const V central_u = pair.gas ? T(0.5) * u : (Zi * uL + Zj * uR) * inverse_Z;
-    const V p_star = maximum(central_p + Plain::switched(maximum(jump, V{}), sound) * (Zi * Zj * inverse_Z) * jump, V{});
-    const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
-
+    const auto [inverse_r, u, p_star, u_star] = Plain::flux(i, j, pair);
     V S[6];
     for (int k = 0; k < 6; ++k) S[k] = i.B[k] + j.B[k];
     const Pair<V> g = bent(pair, S);
     add_force(pair.F * p_star, g, i.volume, j.volume, si, sj);
-    const V shared = (T(0.5) * pair.F) * (vx * g.dx + vy * g.dy + vz * g.dz);
-    const V apart = pair.F * inverse_r * (dx * g.dx + dy * g.dy + dz * g.dz) * (u_star - T(0.5) * u);
+    const V shared = (T(0.5) * pair.F) * ((i.vx - j.vx) * g.dx + (i.vy - j.vy) * g.dy + (i.vz - j.vz) * g.dz);
+    const V apart = pair.F * inverse_r * (pair.dx * g.dx + pair.dy * g.dy + pair.dz * g.dz) * (u_star - T(0.5) * u);
     const V Di = j.volume * (shared + apart), Dj = i.volume * (shared - apart);
     si.compression += Di;
     sj.compression += Dj;

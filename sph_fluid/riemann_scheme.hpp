@@ -60,7 +60,12 @@ struct Riemann {
 
   UNDEX_INLINE static V switched(V closing, V sound) { return minimum(12 * closing, sound) * reciprocal(sound); }
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+  /// Velocity of i relative to j along the pair, and the solution of its Riemann problem.
+  struct Flux {
+    V inverse_r, u, p_star, u_star;
+  };
+
+  UNDEX_INLINE static Flux flux(const State& i, const State& j, const Pair<V>& pair) {
     const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
     const V inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
     // Velocities relative to v_i . e: the left one is zero, the right one is u.
@@ -83,12 +88,16 @@ struct Riemann {
     const V central_u = pair.gas ? T(0.5) * u : (Zi * uL + Zj * uR) * inverse_Z;
     const V p_star = maximum(central_p + switched(closing, sound) * (Zi * Zj * inverse_Z) * jump, V{});
     const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
+    return {inverse_r, u, p_star, u_star};
+  }
 
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    const auto [inverse_r, u, p_star, u_star] = flux(i, j, pair);
     const V F = pair.gas ? 4 * pair.F * reciprocal(i.filling + j.filling) : 2 * pair.F;
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
-    V Ci = Di, Cj = Dj;
+    V Ci = Di, Cj = Dj;  // of the density: with the weight w
     if (pair.alike) {
       const Mask<T> approach = u < 0;
       const V inverse = reciprocal(i.rho * j.rho);
