@@ -16,6 +16,9 @@ inline Body body(const std::string& name, const Shape& shape, const std::string&
   return Body{name, shape, materials::find_fluid(material).value(), {}, Vec3::Zero(), {}, {}, {}, {}, false, {}};
 }
 
+/// What a closed fluid keeps [J].
+inline double total(const Ledger& l) { return l.kinetic + l.internal + l.dissipated + l.wall_work; }
+
 inline Wall box_wall(const Vec3& low, const Vec3& high, FaceCondition condition = FaceCondition::free_slip) {
   Wall wall;
   wall.name = "box";
