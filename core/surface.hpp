@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/vector.hpp"
@@ -14,5 +15,10 @@ struct WetSurface {
   std::vector<Vec3> nodes;                 ///< reference positions [m], one per wet node
   std::vector<std::array<int, 4>> faces;   ///< indices into nodes
 };
+
+/// Unit normals at the nodes of faces, away from the fluid: means weighted by area. Those of nodes on a symmetry plane (through
+/// the origin, across a marked axis) lie in it.
+std::vector<Vec3> node_normals(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position,
+                               const std::array<bool, 3>& symmetry);
 
 }  // namespace undex

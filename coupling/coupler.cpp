@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "sph_fluid/lattice.hpp"
+#include "sph_fluid/wall_images.hpp"
 
 namespace undex::coupling {
 
@@ -16,7 +17,9 @@ Coupler::Coupler(sph::Fluid& fluid, Participant& structure, const Settings& sett
             sph::kernel_support(fluid.settings().numerics.kernel) *
                 sph::smoothing_length(fluid.settings(), fluid.settings().lattice.spacing),
             fluid.settings().symmetry.axis),
-      wall_index_(fluid.add_moving_wall(wall_.particles(settings.free_slip))),
+      wall_index_(fluid.add_moving_wall(settings.free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)
+                                            ? wall_.mesh()
+                                            : wall_.particles(settings.free_slip))),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace undex::coupling {
 namespace {
@@ -18,15 +19,9 @@ Vec3 blend(const std::array<int, 4>& face, const std::array<double, 4>& weight, 
 }  // namespace
 
 WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const std::array<bool, 3>& symmetry)
-    : surface_(surface), symmetry_(symmetry), in_plane_(surface.nodes.size(), {false, false, false}) {
-  Bounds box;
-  for (const Vec3& x : surface.nodes) box.include(x);
-  const double tolerance = 1e-9 * (box.high - box.low).norm();
-  for (std::size_t n = 0; n < surface.nodes.size(); ++n)
-    for (int a = 0; a < 3; ++a) in_plane_[n][a] = symmetry[a] && std::abs(surface.nodes[n][a]) <= tolerance;
-
+    : surface_(surface), symmetry_(symmetry) {
   layers_ = std::size_t(std::max(3.0, std::ceil(depth / spacing - 1e-9)));
-  const std::vector<Vec3> normal = normals(surface.nodes);
+  const std::vector<Vec3> normal = node_normals(surface.faces, surface.nodes, symmetry);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const std::array<int, 4>& face = surface.faces[f];
     const auto edge = [&](int a, int b) { return (surface.nodes[face[a]] - surface.nodes[face[b]]).norm(); };
@@ -48,19 +43,12 @@ WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const 
   }
 }
 
-std::vector<Vec3> WetWall::normals(std::span<const Vec3> position) const {
-  std::vector<Vec3> normal(position.size(), Vec3::Zero());
-  for (const std::array<int, 4>& face : surface_.faces) {
-    // Half the product of the diagonals: the face's area vector.
-    const Vec3 area = 0.5 * (position[face[2]] - position[face[0]]).cross(position[face[3]] - position[face[1]]);
-    for (const int n : face) normal[n] += area;
-  }
-  for (std::size_t n = 0; n < normal.size(); ++n) {
-    for (int a = 0; a < 3; ++a)
-      if (in_plane_[n][a]) normal[n][a] = 0.0;
-    normal[n].normalize();
-  }
-  return normal;
+sph::MovingWall WetWall::mesh() const {
+  sph::MovingWall wall;
+  wall.mesh = surface_.faces;
+  wall.position = surface_.nodes;
+  wall.velocity.assign(surface_.nodes.size(), Vec3::Zero());
+  return wall;
 }
 
 sph::MovingWall WetWall::particles(bool free_slip) const {
@@ -75,7 +63,12 @@ sph::MovingWall WetWall::particles(bool free_slip) const {
 }
 
 void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const {
-  const std::vector<Vec3> normal = normals(position);
+  if (!wall.mesh.empty()) {
+    wall.position.assign(position.begin(), position.end());
+    wall.velocity.assign(velocity.begin(), velocity.end());
+    return;
+  }
+  const std::vector<Vec3> normal = node_normals(surface_.faces, position, symmetry_);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Point& point = points_[k];
@@ -88,6 +81,10 @@ void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocit
 }
 
 void WetWall::hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const {
+  if (!wall.mesh.empty()) {
+    for (std::size_t n = 0; n < nodal_impulse.size(); ++n) nodal_impulse[n] += std::exchange(wall.impulse[n], Vec3::Zero());
+    return;
+  }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Point& point = points_[k];
     for (int c = 0; c < 4; ++c) nodal_impulse[surface_.faces[point.face][c]] += point.weight[c] * wall.impulse[k];

@@ -1,4 +1,5 @@
-// The wet surface of a structure, lined with dummy particles for the fluid. Particles ride on the bilinear shape functions
+// The wet surface of a structure as the fluid sees it: where the fluid slips, the faces themselves, in which it is mirrored
+// (sph_fluid/wall_images.hpp); elsewhere dummy particles behind them. These ride on the bilinear shape functions
 // of the faces, at fixed depths along the surface normal, so that one set of weights serves both ways: motion maps
 // consistently (a rigid motion arrives as itself) and force conservatively (the sum of forces and their virtual work
 // arrive whole).
@@ -22,10 +23,12 @@ class WetWall {
   std::size_t particle_count() const { return points_.size(); }
   std::size_t layer_count() const { return layers_; }
 
+  /// The surface itself at its reference position, at rest, for the fluid to be mirrored in.
+  sph::MovingWall mesh() const;
   /// Dummy particles at the surface's reference position, at rest.
   sph::MovingWall particles(bool free_slip) const;
 
-  /// Places `wall` where the surface's nodes are. Velocity is that of the surface point below the particle: beneath a
+  /// Places `wall`, of either kind, where the surface's nodes are. Velocity of a dummy particle is that of the surface point below the particle: beneath a
   /// rotating surface the tangential part lacks depth times spin, the normal part (all that free slip sees) is exact.
   void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const;
 
@@ -47,11 +50,8 @@ class WetWall {
     double depth;                     // [m] behind the surface
     std::array<double, 4> weight;     // shape functions
   };
-  std::vector<Vec3> normals(std::span<const Vec3> position) const;
-
   WetSurface surface_;
   std::array<bool, 3> symmetry_;
-  std::vector<std::array<bool, 3>> in_plane_;   // per node: normal component held at zero
   std::vector<Point> points_;
   std::vector<double> volume_;                  // [m^3]
   std::size_t layers_ = 0;

@@ -162,21 +162,24 @@ class ClusterWork {
 
   void with_group(int g) {
     const GroupView& other = in_.groups[g];
+    const bool images = other.images_of >= 0;
     PairKind kind{};
     kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
     kind.gas = own_.gas || other.gas;
-    kind.foreign = g != cluster_.group;
+    kind.foreign = (images ? other.images_of : g) != cluster_.group;
     kind.alike = other.material == own_.material;
     // A pair's h is the mean of two.
     const double reach = kernel_.support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
     // Where both sides receive their part, the pairs of two clusters belong to the first, and a cluster meets what comes after
     // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
-    // an image, i is an image too, and what the image receives is mirrored back.
-    if (Pass::symmetric && g < cluster_.group) return;
+    // an image, i is an image too, and what the image receives is mirrored back. Images in walls are met by all, with one half of
+    // each pair: the other is that of the image of i.
+    if (Pass::symmetric && !images && g < cluster_.group) return;
     if (Pass::symmetric && !takes(own_, other)) return;
     if (Pass::partners == Partners::own_body && !(g == cluster_.group && own_.own_pairs)) return;
     if (Pass::partners == Partners::other_bodies && g == cluster_.group) return;
-    const std::uint32_t next = cluster_.begin + cluster_.count;
+    const double *x = images ? in_.images.x : in_.x, *y = images ? in_.images.y : in_.y, *z = images ? in_.images.z : in_.z;
+    const std::uint32_t next = images ? 0 : cluster_.begin + cluster_.count;
     struct {
       std::uint32_t begin, real;
       int image;
@@ -189,16 +192,16 @@ class ClusterWork {
       if (Pass::symmetric && g == cluster_.group) {
         own = cluster_.count;
         list_.reserve(begin + own);
-        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, in_.x[k], in_.y[k], in_.z[k]);
+        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, x[k], y[k], z[k]);
       }
-      scan_grid(other.grid, in_.x, in_.y, in_.z, box, reach, Pass::symmetric ? next : 0, list_);
+      scan_grid(other.grid, x, y, z, box, reach, Pass::symmetric ? next : 0, list_);
       pieces[count++] = {begin, list_.size, image};
-      fill(begin, own, image, reach);
+      fill(begin, images ? list_.size - begin : own, images, image, reach);
     });
     pairs_with<State, Sums, Pass::symmetric>(kind);
     if constexpr (Pass::symmetric)
       for (int k = 0; k < count; ++k)
-        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, out_.fluid, pieces[k].image);
+        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
   }
 
   void with_walls() {
@@ -221,15 +224,16 @@ class ClusterWork {
     });
   }
 
-  /// The candidates from `begin` on, the first `own` of them the cluster's, get what the pairs read of them.
-  void fill(std::uint32_t begin, std::uint32_t own, int image, double reach) {
+  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
+  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
     const std::uint32_t real = list_.size;
     if (real == begin) return;
     list_.pad(begin);
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
-    if (Pass::symmetric) list_.fill_weights(begin, own);
-    list_.template fill_rows<List::state>(begin, in_.fluid, image);
-    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_, image);
+    if (Pass::symmetric) list_.fill_weights(begin, halves);
+    list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
+    if constexpr (with_second)
+      list_.template fill_rows<List::second>(begin, second_rows(in_, images, (const Second*)nullptr), image);
   }
 
   template <class Other, class OtherSums, bool two_sided>
@@ -327,7 +331,7 @@ class ClusterWork {
   const Pass& pass_;
   const Cluster& cluster_;
   const GroupView& own_;
-  const Second* second_ = second_rows(in_, (const Second*)nullptr);
+  const Second* second_ = second_rows(in_, false, (const Second*)nullptr);
   List list_;
   const PairOutput& out_;
   Box3 box_;

@@ -5,11 +5,17 @@
 namespace undex::sph::UNDEX_LEVEL {
 
 template <class T>
-void riemann_corrected_rates(const PairInput& in, const PairOutput& out) {
+void corrected_reconstruction(const PairInput& in, const PairOutput& out) {
   pass<AnyKernel, CorrectedReconstruction, T>(in, out);
+}
+
+template <class T>
+void riemann_corrected_rates(const PairInput& in, const PairOutput& out) {
   pass<AnyKernel, RiemannCorrected, T>(in, out);
 }
 
+template void corrected_reconstruction<double>(const PairInput&, const PairOutput&);
+template void corrected_reconstruction<float>(const PairInput&, const PairOutput&);
 template void riemann_corrected_rates<double>(const PairInput&, const PairOutput&);
 template void riemann_corrected_rates<float>(const PairInput&, const PairOutput&);
 

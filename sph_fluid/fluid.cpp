@@ -15,7 +15,7 @@ const Settings& Fluid::settings() const { return self_->settings; }
 std::size_t Fluid::particle_count() const { return self_->particles.size(); }
 std::size_t Fluid::wall_particle_count() const {
   if (!self_->evaluated) self_->evaluate(0.0, 0.0);
-  return self_->wall_origin.size();
+  return self_->wall_origin.size() + self_->images.size();
 }
 std::vector<std::size_t> Fluid::particles_by_body() const {
   std::vector<std::size_t> counts;
@@ -27,7 +27,7 @@ std::size_t Fluid::memory_bytes() const {
   std::size_t bytes = s.particles.memory_bytes() + s.blocks.memory_bytes() +
                       s.interactions.capacity() * sizeof(long long) +
                       s.wall_origin.capacity() * (sizeof(Implementation::WallOrigin) + 3 * sizeof(double)) +
-                      s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow);
+                      s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow) + s.images.memory_bytes() + s.near.images.memory_bytes();
   for (const Group& group : s.groups) bytes += group.cells.memory_bytes();
   for (const Group& group : s.near.groups) bytes += group.cells.memory_bytes();
   bytes += s.near.particles.memory_bytes() + s.near.blocks.memory_bytes();

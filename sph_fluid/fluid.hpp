@@ -1,6 +1,7 @@
 // The fluid: water, charge and bubble as SPH particles between walls and symmetry planes, advanced in time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -43,9 +44,11 @@ struct PointValues {
   int neighbours = 0;      ///< 0: no fluid there, the values are zero
 };
 
-/// Dummy particles of one wall that a structure moves. The owner updates position, velocity and normal before each step
-/// and collects the impulse after it.
+/// A wall that a structure moves. The owner updates position, velocity and normal before each step and collects the impulse
+/// after it. Without a mesh it is lined with dummy particles; with one its points are the nodes of faces that the fluid slips
+/// along (wall_images.hpp), and have neither normals nor volumes.
 struct MovingWall {
+  std::vector<std::array<int, 4>> mesh;  ///< faces, as WetSurface has them
   std::vector<Vec3> position;   ///< [m]
   std::vector<Vec3> velocity;   ///< [m/s]
   std::vector<Vec3> normal;     ///< unit, pointing away from the fluid; behind an edge, the edge's direction

@@ -29,11 +29,17 @@ inline const double* numbers(const SolidRow* row) { return row->corrected; }
 
 /// The rows that a scheme reads beside FluidRow.
 struct NoRow {};
-inline const NoRow* second_rows(const PairInput&, const NoRow*) { return nullptr; }
-inline const GradientRow* second_rows(const PairInput& in, const GradientRow*) { return in.gradient; }
-inline const CorrectedRow* second_rows(const PairInput& in, const CorrectedRow*) { return in.corrected; }
-inline const ViscosityRow* second_rows(const PairInput& in, const ViscosityRow*) { return in.viscosity; }
-inline const SolidRow* second_rows(const PairInput& in, const SolidRow*) { return in.solid; }
+inline const NoRow* second_rows(const PairInput&, bool, const NoRow*) { return nullptr; }
+inline const GradientRow* second_rows(const PairInput& in, bool images, const GradientRow*) {
+  return images ? in.images.gradient : in.gradient;
+}
+inline const CorrectedRow* second_rows(const PairInput& in, bool images, const CorrectedRow*) {
+  return images ? in.images.corrected : in.corrected;
+}
+inline const ViscosityRow* second_rows(const PairInput& in, bool images, const ViscosityRow*) {
+  return images ? in.images.viscosity : in.viscosity;
+}
+inline const SolidRow* second_rows(const PairInput& in, bool, const SolidRow*) { return in.solid; }
 inline constexpr int length_of(const NoRow*) { return 0; }
 inline constexpr int length_of(const GradientRow*) { return sizeof(GradientRow) / sizeof(float); }
 inline constexpr int length_of(const CorrectedRow*) { return sizeof(CorrectedRow) / sizeof(float); }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "sph_fluid/kernels.hpp"
+#include "sph_fluid/wall_images.hpp"
 
 namespace undex::sph {
 namespace {
@@ -332,6 +333,7 @@ std::vector<MovingWall> line_walls(const Settings& settings) {
         if (here == FaceCondition::open) return;
         if (here == FaceCondition::no_slip) condition = here;
       }
+      if (condition == FaceCondition::free_slip && mirrors_fluid(settings.numerics.scheme)) return;
       MovingWall& out = result[condition == FaceCondition::no_slip ? 1 : 0];
       out.position.push_back(x);
       out.normal.push_back(place.normal);

@@ -118,7 +118,7 @@ void Fluid::Implementation::step_local(double dt) {
         const auto timer = timers.measure("integration");
         require(half_kick(h));
         drift(h);
-        cross_symmetry_planes();
+        cross_mirrors();
       }
       done += h;
       evaluation_time = time + done;
@@ -135,7 +135,7 @@ void Fluid::Implementation::step_local(double dt) {
     slow_ahead = slow_bend = 0;
   }
   scatter_near();
-  cross_symmetry_planes();
+  cross_mirrors();
   if (near_walls)
     for (std::size_t w = 0; w < moving.size(); ++w) show(moving[w], walls_after[w]);
   evaluation_time = time + dt;
@@ -210,6 +210,7 @@ void Fluid::Implementation::gather_near(double dt) {
     group.end = std::uint32_t(place.size());
     group.h_max = groups[g].h_max;
   }
+  near.images.forget();
   Particles& q = near.particles;
   const std::size_t n = place.size();
   for_each_state(q, p, [&](auto& mine, const auto& all) {
@@ -236,7 +237,7 @@ void Fluid::Implementation::gather_near(double dt) {
     if (!q.corrected.empty()) q.corrected[k] = p.corrected[i];
   }
 
-  near_walls = false;
+  near_walls = std::any_of(moving.begin(), moving.end(), [](const MovingWall& wall) { return !wall.mesh.empty(); });
   for (std::size_t k = 0; k < wall_origin.size() && !near_walls; ++k)
     near_walls = distance_to_box({wall_place[0][k], wall_place[1][k], wall_place[2][k]}, box.low, box.high) < width;
 }

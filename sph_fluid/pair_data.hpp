@@ -110,6 +110,16 @@ struct GroupView {
   std::uint32_t material = 0;  ///< one number for all groups of one material
   bool fast = false;        ///< see PairChoice
   bool own_pairs = true;    ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
+  int images_of = -1;       ///< a group of images (wall_images.hpp): the group that they show
+};
+
+/// Images in slip walls: what pairs read of them, as PairInput's arrays of particles.
+struct ImageInput {
+  const double *x, *y, *z;
+  const FluidRow* fluid;
+  const GradientRow* gradient;
+  const CorrectedRow* corrected;
+  const ViscosityRow* viscosity;
 };
 
 /// Up to cluster_size consecutive particles of one row of cells.
@@ -160,8 +170,9 @@ struct PairInput {
   DeformationRow* deformation;
   double artificial_stress, spacing;   ///< of the solids' forces
   double contact_damping;              ///< share of the acoustic impedance
-  const GroupView* groups;
+  const GroupView* groups;             ///< of particles first, then of images
   int group_count;
+  ImageInput images;
   const double *wall_x, *wall_y, *wall_z;
   const WallRow* wall;                 ///< sorted by cell of wall_grid
   CellGrid wall_grid;
@@ -183,6 +194,7 @@ struct PairInput {
 struct PairOutput {
   SumRow* fluid;
   ForceRow* wall;           ///< null where nobody asks for it
+  SumRow* images;           ///< what they receive, for their owners
   long long* interactions;  ///< true neighbours met (directed), one counter per block
 };
 

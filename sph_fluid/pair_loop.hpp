@@ -13,13 +13,15 @@ struct PairLoops {
   const char* cpu_level;
   SecondRow second;
   double support;        ///< of the kernel, in smoothing lengths
+  /// Fills PairInput::gradient or ::corrected, for `rates`; null where the scheme has no use for them.
+  void (*gradients)(const PairInput&, const PairOutput&);
   /// Adds every pair to the sums of `out`, which the caller has set to zero.
   void (*rates)(const PairInput&, const PairOutput&);
   /// Fills PairInput::concentration.
   void (*concentration)(const PairInput&, const PairOutput&);
 
   /// Does a pass for gradients come before the fluxes?
-  bool reconstructs() const { return second == SecondRow::gradient || second == SecondRow::corrected; }
+  bool reconstructs() const { return gradients != nullptr; }
 };
 
 /// The loops of the best instruction set that this machine has; the environment variable UNDEX_CPU_LEVEL (x86-64-v2, -v3,

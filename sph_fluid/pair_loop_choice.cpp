@@ -18,6 +18,10 @@ using Pass = void (*)(const PairInput&, const PairOutput&);
   namespace level {                                                                             \
   struct AnyKernel;                                                                             \
   template <class Kernel, class T>                                                              \
+  void reconstruction(const PairInput&, const PairOutput&);                                     \
+  template <class T>                                                                            \
+  void corrected_reconstruction(const PairInput&, const PairOutput&);                           \
+  template <class Kernel, class T>                                                              \
   void monaghan_rates(const PairInput&, const PairOutput&);                                     \
   template <class Kernel, class T>                                                              \
   void riemann_rates(const PairInput&, const PairOutput&);                                      \
@@ -49,8 +53,17 @@ using Pass = void (*)(const PairInput&, const PairOutput&);
            : kernel == KernelName::wendland_c2 ? &riemann_rates<WendlandC2, T>                  \
                                                : &riemann_rates<AnyKernel, T>;                  \
   }                                                                                             \
+  template <class T>                                                                            \
+  Pass gradients(KernelName kernel, SchemeName scheme) {                                        \
+    if (scheme == SchemeName::riemann_corrected) return &corrected_reconstruction<T>;           \
+    if (scheme != SchemeName::riemann) return nullptr;                                          \
+    return kernel == KernelName::gaussian      ? &reconstruction<Gaussian, T>                   \
+           : kernel == KernelName::wendland_c2 ? &reconstruction<WendlandC2, T>                 \
+                                               : &reconstruction<AnyKernel, T>;                 \
+  }                                                                                             \
   PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) { \
     return {name, second_row(scheme), kernel_choice(kernel, 1).support,                         \
+            precision == Precision::mixed ? gradients<float>(kernel, scheme) : gradients<double>(kernel, scheme), \
             precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme), \
             precision == Precision::mixed ? &concentration<float> : &concentration<double>};    \
   }                                                                                             \

@@ -6,11 +6,7 @@
 namespace undex::sph::UNDEX_LEVEL {
 
 template <class Kernel, class T>
-void reconstruction(const PairInput&, const PairOutput&);
-
-template <class Kernel, class T>
 void riemann_rates(const PairInput& in, const PairOutput& out) {
-  reconstruction<Kernel, T>(in, out);
   pass<Kernel, Riemann, T>(in, out);
 }
 

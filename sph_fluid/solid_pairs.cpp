@@ -39,7 +39,7 @@ SolidPairs::~SolidPairs() {
 }
 
 void SolidPairs::run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in) {
-  pass(in, {sums_.data(), nullptr, interactions_.data()});
+  pass(in, {sums_.data(), nullptr, nullptr, interactions_.data()});
 }
 
 void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt) {

@@ -15,6 +15,7 @@
 #include "sph_fluid/fluid.hpp"
 #include "sph_fluid/pair_loop.hpp"
 #include "sph_fluid/particles.hpp"
+#include "sph_fluid/wall_images.hpp"
 
 namespace undex::sph {
 
@@ -68,6 +69,7 @@ struct ParticleSet {
   Particles particles;
   std::vector<Group> groups;
   std::vector<GroupView> views;
+  WallImages images;                             // of the particles, in slip walls
   BlockOrder blocks;
   std::vector<long long> interactions;           // per block
   PairChoice choice = PairChoice::all;           // whose rates Particles::rate holds
@@ -87,6 +89,7 @@ struct Fluid::Implementation : ParticleSet {
   Settings settings;
   PairLoops loops;
   double kernel_scale = 1;                       // 1 over the kernel's lattice factor
+  SlipFaces slip_walls;
   std::vector<MovingWall> rigid;
   std::vector<MovingWall> moving;
   std::vector<std::vector<Vec3>> whole_force;    // of local steps: the sum of both sets', per moving wall [N]
@@ -162,8 +165,8 @@ struct Fluid::Implementation : ParticleSet {
   void drift(double dt);
   /// The predictor's weight of the last change of the rates.
   static double bend_of(double dt, double last) { return last > 0 ? dt * std::min(2.0, dt / last) / 6.0 : 0.0; }
-  /// A particle that crosses a symmetry plane changes places with its image.
-  void cross_symmetry_planes();
+  /// A particle that crosses a symmetry plane or a slip wall changes places with its image.
+  void cross_mirrors();
   /// Heat that no energy field takes up, and what the moving walls receive, over `duration` at the last evaluation's rates.
   void book_exchange(double duration);
   /// After an evaluation that went wrong: back by half of the drift, to the state between the two kicks. All of it is
@@ -192,6 +195,7 @@ struct Fluid::Implementation : ParticleSet {
   /// speed (or of the density) that counts as a signal.
   void find_signals();
   void pack_walls();
+  void find_images();
   PairInput pair_input();
   void pairs(const PairInput& in);
   /// Rates per mass from the sums per volume. Where there is an energy field, its rate is the viscous heat plus the

@@ -27,6 +27,7 @@ Fluid::Implementation::Implementation(const Settings& s)
   time = evaluation_time = settings.start_time;
   dissipated = settings.heat_before;
   kernel_scale = 1.0 / lattice_factor(s.numerics.kernel, s.numerics.eta, s.dimension);
+  slip_walls = slip_faces(settings);
   fill();
   pack_walls();
   particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0,

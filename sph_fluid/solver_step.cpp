@@ -42,7 +42,7 @@ void Fluid::Implementation::step_leapfrog(double dt) {
       throw NumericalStop(what);
     }
     drift(dt);
-    cross_symmetry_planes();
+    cross_mirrors();
   }
   evaluation_time = time + dt;
   evaluate(0.5 * dt, bend_of(dt, last_step));
@@ -66,7 +66,7 @@ void Fluid::Implementation::step_or_stay(double dt) {
       step_local(dt);
   } catch (const NumericalStop&) {
     particles.restore_start();
-    cross_symmetry_planes();
+    cross_mirrors();
     dissipated = booked.dissipated;
     wall_work = booked.wall_work;
     for (std::size_t w = 0; w < moving.size(); ++w) {
@@ -92,9 +92,10 @@ void Fluid::Implementation::evaluate(double half, double bend) {
   equation_of_state(half, bend);
   particles.turn_rates();
   pack_walls();
+  find_images();
   pairs(pair_input());
-  finish_rates();
   wall_forces();
+  finish_rates();
   if (settings.numerics.integrator == Integrator::ssp_rk3 || choice == PairChoice::slow) walls_seen = wall_motions();
   evaluated = true;
 }
@@ -112,7 +113,7 @@ void Fluid::Implementation::drift(double dt) {
   if (settings.numerics.shifting > 0.0) shift(dt);
 }
 
-void Fluid::Implementation::cross_symmetry_planes() {
+void Fluid::Implementation::cross_mirrors() {
   Particles& p = particles;
   const struct {
     std::vector<double>&x, &v;
@@ -142,6 +143,12 @@ void Fluid::Implementation::cross_symmetry_planes() {
         }
       }
   }
+  std::vector<std::vector<Vec3>> received;
+  for (const MovingWall& wall : moving) received.emplace_back(wall.position.size(), Vec3::Zero());
+  wall_work += images.put_back(settings, slip_walls, moving, p, received);
+  for (std::size_t w = 0; w < moving.size(); ++w)
+    if (!moving[w].mesh.empty())
+      for (std::size_t n = 0; n < received[w].size(); ++n) moving[w].impulse[n] += received[w][n];
 }
 
 bool Fluid::Implementation::half_kick(double dt) {
@@ -180,7 +187,7 @@ void Fluid::Implementation::book_exchange(double duration) {
 
 void Fluid::Implementation::stand_half_way(double dt) {
   drift(-0.5 * dt);
-  cross_symmetry_planes();
+  cross_mirrors();
   time += 0.5 * dt;
   evaluation_time = time;
   stand_still();
@@ -236,6 +243,7 @@ void Fluid::Implementation::shift(double dt) {
 
 void Fluid::Implementation::sort() {
   const auto timer = timers.measure("sort");
+  images.forget();
   views.clear();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     Group& group = groups[g];
@@ -365,7 +373,8 @@ void Fluid::Implementation::find_signals() {
 
 void Fluid::Implementation::pack_walls() {
   if (walls_packed && (moving.empty() || (choice == PairChoice::fast && !near_walls))) return;
-  if (moving.empty() && settings.walls.empty()) return;
+  const auto lined = [](const MovingWall& wall) { return wall.mesh.empty(); };
+  if (settings.walls.empty() && std::none_of(moving.begin(), moving.end(), lined)) return;
   const auto timer = timers.measure("walls");
   // Where no wall moves they are packed once, and what they are made from is not kept.
   if (rigid.empty()) rigid = line_walls(settings);
@@ -375,6 +384,7 @@ void Fluid::Implementation::pack_walls() {
     return o.wall >= 0 ? moving[o.wall] : rigid[-1 - o.wall];
   };
   const auto add = [&](const MovingWall& wall, int index) {
+    if (!wall.mesh.empty()) return;
     for (std::size_t k = 0; k < wall.position.size(); ++k) {
       origin.push_back({index, std::uint32_t(k)});
       for (int a = 0; a < 3; ++a) place[a].push_back(wall.position[k][a]);
@@ -397,6 +407,25 @@ void Fluid::Implementation::pack_walls() {
   }
   if (moving.empty()) rigid = std::vector<MovingWall>();
   walls_packed = true;
+}
+
+void Fluid::Implementation::find_images() {
+  const bool meshed = std::any_of(moving.begin(), moving.end(), [](const MovingWall& wall) { return !wall.mesh.empty(); });
+  if (!meshed && slip_walls.round.empty() && slip_walls.plane.empty()) return;
+  const auto timer = timers.measure("walls");
+  std::vector<WallImages::Range> ranges;
+  for (const Group& group : groups) ranges.push_back({group.begin, group.end, &group.cells, 2.0 * group.spacing});
+  images.build(settings, slip_walls, moving, particles, ranges, reach);
+  images.mirror_rows(particles);
+  if (images.size() == 0) return;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    GroupView view = views[g];
+    view.begin = images.begin(g);
+    view.end = images.begin(g + 1);
+    view.grid = images.grid(g);
+    view.images_of = int(g);
+    if (view.begin < view.end) views.push_back(view);
+  }
 }
 
 PairInput Fluid::Implementation::pair_input() {
@@ -423,6 +452,7 @@ PairInput Fluid::Implementation::pair_input() {
   in.concentration = particles.concentration.data();
   in.groups = views.data();
   in.group_count = int(views.size());
+  images.describe(in);
   in.wall_x = wall_place[0].data();
   in.wall_y = wall_place[1].data();
   in.wall_z = wall_place[2].data();
@@ -441,14 +471,19 @@ void Fluid::Implementation::pairs(const PairInput& in) {
   const auto timer = timers.measure("pairs");
   interactions.resize(blocks.block_count());
   std::fill(wall_force.begin(), wall_force.end(), ForceRow{});
-  const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), interactions.data()};
+  const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), images.sums(),
+                       interactions.data()};
   if (settings.numerics.shifting > 0.0) loops.concentration(in, out);
+  if (loops.gradients) {
+    loops.gradients(in, out);
+    images.mirror_gradients(particles);
+  }
   loops.rates(in, out);
   for (const long long count : interactions) interaction_sum += count;
   if (loops.second != SecondRow::gradient) return;
   long held = 0;
   for (const GroupView& group : views)
-    if (group.gas && (choice == PairChoice::all || group.fast == (choice == PairChoice::fast)))
+    if (group.gas && group.images_of < 0 && (choice == PairChoice::all || group.fast == (choice == PairChoice::fast)))
 #pragma omp parallel for schedule(static) reduction(+ : held)
       for (std::uint32_t i = group.begin; i < group.end; ++i) held += particles.gradient[i].filling <= least_filling;
   clamps.filling += held;
@@ -482,9 +517,10 @@ void Fluid::Implementation::finish_rates() {
 }
 
 void Fluid::Implementation::wall_forces() {
-  if (moving.empty()) return;
+  if (moving.empty() && images.size() == 0) return;
   const auto timer = timers.measure("wall forces");
-  wall_power = 0;
+  for (std::size_t w = 0; w < moving.size(); ++w) moving_force[w].assign(moving[w].position.size(), Vec3::Zero());
+  wall_power = images.hand_back(particles, moving, moving_force);
   for (std::size_t k = 0; k < wall_origin.size(); ++k)
     if (wall_origin[k].wall >= 0) {
       const ForceRow& f = wall_force[k];

@@ -55,7 +55,7 @@ bool Fluid::Implementation::stage(double dt, double share, double weight, bool s
     }
   }
   if (shifts) shift(dt);
-  cross_symmetry_planes();
+  cross_mirrors();
   return largest_square < fastest * fastest;
 }
 
@@ -72,7 +72,7 @@ WallMotion Fluid::Implementation::between(const WallMotion& before, const WallMo
     wall.position[k] = r * r * (1.0 + 2.0 * s) * before.position[k] + s * s * (1.0 + 2.0 * r) * after.position[k] +
                        s * r * dt * (r * before.velocity[k] - s * after.velocity[k]);
     wall.velocity[k] = r * before.velocity[k] + s * after.velocity[k];
-    wall.normal[k] = (r * before.normal[k] + s * after.normal[k]).normalized();
+    if (wall.normal.size() > k) wall.normal[k] = (r * before.normal[k] + s * after.normal[k]).normalized();
   }
   return wall;
 }

@@ -127,12 +127,12 @@ TEST(Coupler, InterfaceEnergyErrorFallsWithTheStep) {
                 ledger.work_received);
     RecordProperty("interface_energy_error_" + std::to_string(1 << k), std::to_string(error[k]));
   }
-  EXPECT_LT(error[0], 0.01);
-  EXPECT_LT(error[2], 0.5 * error[0]);
+  EXPECT_LT(error[0], 0.015);  // of second order in the step
+  EXPECT_LT(error[2], 0.12 * error[0]);
   EXPECT_LT(whole[0], 0.05);
 }
 
-/// A plate a thousand times heavier hardly moves: the water meets it as it meets the same lining held fast, and is stopped by
+/// A plate a thousand times heavier hardly moves: the water meets it as it meets the same faces held fast, and is stopped by
 /// the water hammer.
 TEST(Coupler, HeavyPlateIsARigidWall) {
   Choice choice;
@@ -144,7 +144,7 @@ TEST(Coupler, HeavyPlateIsARigidWall) {
   EXPECT_LT(heavy.structure.wet_velocities()[0].norm(), 0.1);
 
   sph::Fluid rigid(Column::water(choice));
-  const int wall = rigid.add_moving_wall(heavy.coupler.wall().particles(true));
+  const int wall = rigid.add_moving_wall(heavy.coupler.wall().mesh());
   while (rigid.time() < 25e-6) rigid.step(std::min(rigid.step_limit().step, 25e-6 - rigid.time() + 1e-18));
   Vec3 impulse = Vec3::Zero();
   for (const Vec3& one : rigid.moving_wall(wall).impulse) impulse += one;

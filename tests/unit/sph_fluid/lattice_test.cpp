@@ -221,6 +221,7 @@ TEST(WallLining, OpenFacesHaveNone) {
   settings.walls = {box_wall(Vec3(0, 0, 0), Vec3(1, 1, 1))};
   settings.walls[0].faces["x_high"] = FaceCondition::open;
   settings.walls[0].faces["y_low"] = FaceCondition::no_slip;
+  settings.numerics.scheme = SchemeName::paper;  // the others mirror the fluid in slip walls
   bool slip = false, stick = false;
   for (const MovingWall& wall : line_walls(settings))
     for (const Vec3& x : wall.position) {
@@ -238,6 +239,8 @@ TEST(WallLining, CylinderNormalsPointAway) {
   wall.container = Cylinder{2, Vec3::Zero(), 0.4445, -0.2, 0.2};
   wall.faces = {{"side", FaceCondition::free_slip}, {"low", FaceCondition::open}, {"high", FaceCondition::open}};
   settings.walls = {wall};
+  EXPECT_TRUE(line_walls(settings).empty()) << "the fluid is mirrored in it";
+  settings.numerics.scheme = SchemeName::paper;
   double volume = 0;
   for (const MovingWall& lining : line_walls(settings))
     for (std::size_t k = 0; k < lining.position.size(); ++k) {

@@ -176,8 +176,9 @@ inline Result run(const Sample& sample) {
   std::vector<long long> interactions(blocks.block_count());
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
-  const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, interactions.data()};
+  const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, nullptr, interactions.data()};
   loops.concentration(in, out);
+  if (loops.gradients) loops.gradients(in, out);
   loops.rates(in, out);
   omp_set_num_threads(before);
   for (Scratch& s : scratch) release(s);

@@ -179,7 +179,7 @@ TEST(Runs, OnlyTheWorkThatASceneNeeds) {
   settings.walls = {box_wall(low, high)};
   Fluid walled(settings);
   walled.step(1e-6);
-  EXPECT_EQ(passes(walled), (std::set<std::string>{"sort", "equation of state", "walls", "pairs", "integration"}));
+  EXPECT_EQ(passes(walled), (std::set<std::string>{"sort", "equation of state", "walls", "pairs", "wall forces", "integration"}));
   settings.walls.clear();
 
   settings.numerics.scheme = SchemeName::riemann;

@@ -33,7 +33,7 @@ Settings pressurised(int dimension, const Shape& shape, const Wall& wall) {
   return settings;
 }
 
-/// Water under uniform pressure fills a box: the lining continues the lattice, so nothing moves.
+/// Water under uniform pressure fills a box: walls continue the lattice, in edges and corners too, so nothing moves.
 TEST(Walls, PressurisedBoxIsAtRest) {
   for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann})
     for (int d = 1; d <= 3; ++d)
@@ -41,19 +41,7 @@ TEST(Walls, PressurisedBoxIsAtRest) {
         const Vec3 low(-0.25, -0.3, -0.4), high(0.25, 0.3, 0.4);
         Settings settings = pressurised(d, box(low, high), box_wall(low, high, condition));
         settings.numerics.scheme = scheme;
-        const auto sees_corner = [&](const Vec3& x) {
-          int faces = 0;
-          for (int a = 0; a < d; ++a) faces += high[a] - std::abs(x[a]) < 0.15;
-          return faces > 1;
-        };
-        EXPECT_LT(restlessness(settings, 1e8, [&](const Vec3& x) { return !sees_corner(x); }), 1e-7) << d << "D";
-        const double corner = restlessness(settings, 1e8, sees_corner);
-        if (condition == FaceCondition::no_slip) {
-          EXPECT_LT(corner, 1e-7) << d << "D";
-        } else {
-          // A dummy beyond two faces acts along one slanted normal only: measured 0.29 in 2D, 0.63 in 3D.
-          EXPECT_LT(corner, 0.7) << d << "D";
-        }
+        EXPECT_LT(restlessness(settings, 1e8, [&](const Vec3&) { return true; }), 1e-7) << d << "D";
       }
 }
 
@@ -72,7 +60,7 @@ TEST(Walls, PressurisedCylinder) {
   const double rough = restlessness(settings, 1e8, [](const Vec3&) { return true; });
   RecordProperty("rings", std::to_string(quiet));
   RecordProperty("cartesian", std::to_string(rough));
-  EXPECT_LT(quiet, 0.25);
+  EXPECT_LT(quiet, 0.15);
   EXPECT_LT(quiet, rough);
 }
 
