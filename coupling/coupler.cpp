@@ -1,13 +1,65 @@
 #include "coupling/coupler.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <variant>
 
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/wall_images.hpp"
 
 namespace undex::coupling {
+namespace {
+
+constexpr double added_mass_share = 0.35;  // of 1/omega: docs/equations.md, section 8
+
+/// Area [m^2] of each node of the surface, a quarter of each of its faces.
+std::vector<double> nodal_areas(const WetSurface& surface) {
+  std::vector<double> area(surface.nodes.size(), 0.0);
+  for (const std::array<int, 4>& face : surface.faces) {
+    const Vec3 u = surface.nodes[face[2]] - surface.nodes[face[0]], v = surface.nodes[face[3]] - surface.nodes[face[1]];
+    for (const int node : face) area[node] += 0.125 * u.cross(v).norm();
+  }
+  return area;
+}
+
+}  // namespace
+
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure) {
+  const WetSurface& surface = structure.wet_surface();
+  const std::vector<double> area = nodal_areas(surface);
+  const auto mass = structure.wet_masses();
+  // Stiffness [Pa/m] that one layer of a body's particles shows the wall.
+  std::vector<double> stiffness;
+  for (const sph::Body& body : fluid.bodies) {
+    const double rho = sph::start_density(body), energy = sph::start_energy(body);
+    const double c = std::visit([&](const auto& law) { return law.evaluate(rho, energy).sound_speed; }, body.material.law);
+    stiffness.push_back(rho * c * c / body.spacing.value_or(fluid.lattice.spacing));
+  }
+  sph::StepLimit limit;
+  limit.step = std::numeric_limits<double>::infinity();
+  limit.criterion = "added mass";
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < stiffness.size(); ++b) {
+      const double distance = signed_distance(fluid.bodies[b].shape, surface.nodes[n], fluid.dimension);
+      if (distance < least) {
+        least = distance;
+        nearest = b;
+      }
+    }
+    const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * stiffness[nearest]));
+    if (step < limit.step) {
+      limit.step = step;
+      limit.position = surface.nodes[n];
+      limit.body = fluid.bodies[nearest].name;
+    }
+  }
+  return limit;
+}
 
 Coupler::Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings)
     : fluid_(fluid),
@@ -20,6 +72,7 @@ Coupler::Coupler(sph::Fluid& fluid, Participant& structure, const Settings& sett
       wall_index_(fluid.add_moving_wall(settings.free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)
                                             ? wall_.mesh()
                                             : wall_.particles(settings.free_slip))),
+      added_mass_(added_mass_limit(fluid.settings(), structure)),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
@@ -37,17 +90,22 @@ void Coupler::show_wall(double ahead) {
   wall_.move(predicted_position_, predicted_velocity_, fluid_.moving_wall(wall_index_));
 }
 
+sph::StepLimit Coupler::step_limit() {
+  const sph::StepLimit limit = fluid_.step_limit();
+  return added_mass_.step < limit.step && !fluid_.settings().numerics.fixed_step ? added_mass_ : limit;
+}
+
 Coupler::Window Coupler::advance(double end) {
   Window window;
   const double start = structure_.time();
-  const double patience = settings_.window * structure_.stable_step();
+  const double patience = std::min(settings_.window * structure_.stable_step(), added_mass_.step);
   const long structure_steps = structure_.steps();
-  window.limit = fluid_.step_limit();
+  window.limit = step_limit();
   double target = std::min(end, start + std::max(patience, window.limit.step));
   // The last two windows before `end` share what is left, so that none is tiny.
   if (target < end && end - start < 2.0 * (target - start)) target = 0.5 * (start + end);
   do {
-    if (window.fluid_steps > 0) window.limit = fluid_.step_limit();
+    if (window.fluid_steps > 0) window.limit = step_limit();
     const double left = target - fluid_.time();
     window.step = left / std::ceil(left / window.limit.step - 1e-9);
     show_wall(fluid_.time() + window.step - start);

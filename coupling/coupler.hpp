@@ -2,7 +2,8 @@
 //   predict the wall -> the water sees it as a moving wall -> the water advances and keeps the impulse that the wall
 //   received -> the structure receives exactly that impulse over its own steps -> the ledger books the exchange.
 // A window is one fluid step over several structure steps, or several fluid steps over one of the structure's, whichever
-// their stable steps ask. The coupler owns the step; each solver only says how long a step it can take.
+// their stable steps ask. The coupler owns the step; each solver only says how long a step it can take, and neither knows
+// of the other's mass: a window is not longer than added_mass_limit() either.
 #pragma once
 
 #include <string>
@@ -24,6 +25,13 @@ struct InterfaceLedger {
   double work_received = 0;              ///< by the structure [J]
 };
 
+/// The longest window [s] in which the water may act on a wall that it has seen move at the window's start: the least over
+/// the wet nodes of share sqrt(m dx/rho)/c, m being the wall's mass per area, rho and c those at the start of the body of
+/// fluid nearest to the node, dx its spacing. Wall and first layer of particles oscillate against each other; where the wall
+/// is the lighter one, by its mass on the layer's stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of
+/// order one, and `share` is omega times the window. `criterion` is "added mass", `position` the node's.
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure);
+
 class Coupler {
  public:
   /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
@@ -31,7 +39,7 @@ class Coupler {
 
   struct Window {
     double step = 0;            ///< last fluid step [s]
-    sph::StepLimit limit;       ///< what the fluid allowed
+    sph::StepLimit limit;       ///< what the fluid allowed, or the wall's mass where that is less
     bool held_by_structure = false;  ///< the window was cut to the structure's step
     long fluid_steps = 0, structure_steps = 0;
   };
@@ -46,12 +54,14 @@ class Coupler {
 
  private:
   void show_wall(double ahead);
+  sph::StepLimit step_limit();
 
   sph::Fluid& fluid_;
   Participant& structure_;
   Settings settings_;
   WetWall wall_;
   int wall_index_;
+  sph::StepLimit added_mass_;
   PassTimers timers_;
   InterfaceLedger ledger_;
   std::vector<Vec3> predicted_position_, predicted_velocity_, nodal_impulse_;

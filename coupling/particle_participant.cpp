@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
@@ -132,7 +133,22 @@ ParticleParticipant::ParticleParticipant(sph::Solids& solids) : solids_(solids) 
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t n = 0; n < points_.size(); ++n) points_[n] = solids.locate(surface_.nodes[n]);
   for (auto* field : {&position_, &velocity_, &acceleration_}) field->resize(points_.size());
+  share_mass();
   read_motion();
+}
+
+void ParticleParticipant::share_mass() {
+  std::vector<double> seen(solids_.particle_count(), 0.0);
+  const auto each = [](const sph::Solids::Point& point, auto use) {
+    for (std::size_t k = 0; k < point.particles.size(); ++k) use(point.particles[k], std::abs(point.weights[k]));
+  };
+  for (const sph::Solids::Point& point : points_) each(point, [&](std::uint32_t i, double weight) { seen[i] += weight; });
+  for (const sph::Solids::Point& point : points_) {
+    double& mass = mass_.emplace_back(0.0);
+    each(point, [&](std::uint32_t i, double weight) {
+      if (weight > 0.0) mass += solids_.particle_mass(i) * weight / seen[i];
+    });
+  }
 }
 
 void ParticleParticipant::advance(double t_end, std::span<const Vec3> impulse) {

@@ -102,6 +102,41 @@ double interpolated(const PressureLoad& load, double time) {
   return load.pressure[i - 1] + share * (load.pressure[i] - load.pressure[i - 1]);
 }
 
+/// Every node's mass, handed on along the cells' edges in equal shares to those nearer to `nodes`: what arrives there.
+std::vector<double> carried_by(const std::vector<int>& nodes, const Grid& grid, std::vector<double> mass) {
+  if (nodes.empty()) return {};
+  constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  std::vector<std::vector<int>> neighbours(grid.nodes.size());
+  const auto join = [&](int a, int b) {
+    std::vector<int>& known = neighbours[a];
+    if (std::find(known.begin(), known.end(), b) == known.end()) known.push_back(b);
+  };
+  for (const auto& cell : grid.cells)
+    for (const auto& [a, b] : edges) {
+      join(cell[a], cell[b]);
+      join(cell[b], cell[a]);
+    }
+  // Nearest first, by the number of edges; then from the farthest back.
+  std::vector<int> order = nodes, distance(grid.nodes.size(), -1);
+  for (const int node : nodes) distance[node] = 0;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (const int next : neighbours[order[k]])
+      if (distance[next] < 0) {
+        distance[next] = distance[order[k]] + 1;
+        order.push_back(next);
+      }
+  for (std::size_t k = order.size(); k-- > nodes.size();) {
+    const int node = order[k];
+    const auto nearer = [&](int other) { return distance[other] < distance[node]; };
+    const auto count = std::count_if(neighbours[node].begin(), neighbours[node].end(), nearer);
+    for (const int other : neighbours[node])
+      if (nearer(other)) mass[other] += mass[node] / double(count);
+  }
+  std::vector<double> carried;
+  for (const int node : nodes) carried.push_back(mass[node]);
+  return carried;
+}
+
 /// Nodal forces of a unit pressure on a bilinear face, exact: its normal is the cross product of the two tangents,
 /// pointing into the structure, and 2x2 Gauss points integrate it times a shape function without error.
 std::array<Vec3, 4> pressed(const std::array<Vec3, 4>& x) {
@@ -150,6 +185,7 @@ struct Structure::Implementation {
   WetSurface wet;
   std::vector<int> wet_nodes;
   std::vector<Vec3> wet_position, wet_velocity, wet_acceleration;
+  std::vector<double> wet_mass;
 
   explicit Implementation(const Settings& given)
       : settings(given),
@@ -203,6 +239,7 @@ struct Structure::Implementation {
         wet.faces.push_back(face);
       }
     for (auto* field : {&wet_position, &wet_velocity, &wet_acceleration}) field->resize(wet_nodes.size());
+    wet_mass = carried_by(wet_nodes, grid, elements->nodal_mass());
   }
 
   void show_wet_motion() {
@@ -377,6 +414,7 @@ const WetSurface& Structure::wet_surface() const { return self_->wet; }
 std::span<const Vec3> Structure::wet_positions() const { return self_->wet_position; }
 std::span<const Vec3> Structure::wet_velocities() const { return self_->wet_velocity; }
 std::span<const Vec3> Structure::wet_accelerations() const { return self_->wet_acceleration; }
+std::span<const double> Structure::wet_masses() const { return self_->wet_mass; }
 
 double Structure::stable_step() const { return self_->stable_step(); }
 std::string Structure::stable_step_owner() const { return self_->owner(); }

@@ -58,6 +58,9 @@ class Structure {
   std::span<const Vec3> wet_positions() const;
   std::span<const Vec3> wet_velocities() const;
   std::span<const Vec3> wet_accelerations() const;
+  /// Mass [kg] of each wet node and of what is behind it (a sheet's whole thickness, half of it where both sides are wet):
+  /// every node's lumped mass counts for the wet nodes nearest to it along the cells' edges, in equal shares.
+  std::span<const double> wet_masses() const;
 
   /// Largest stable step [s] of central differences for the present mesh and state, times settings.courant.
   double stable_step() const;

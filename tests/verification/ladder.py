@@ -23,8 +23,10 @@ TESTS = {
                                                    "velocity_l1": 0.023, "energy_error": 0.01}),
     "taylor_plate_500MPa": ("taylor_plate", {"start.peak": 5e8, **SHELL, **JC}, {
         "cavitation_error": 0.04, "impulse_error": 0.02, "end_impulse_error": 0.02, "velocity_l1": 0.012, "energy_error": 0.04}),
-    # Lighter than the water of a quarter of a spacing: bounded, not accurate.
-    "taylor_plate_light": ("taylor_plate/light.toml", {"scheme.courant": 0.1}, {"end_impulse_error": 0.9, "energy_error": 0.02}),
+    # Lighter than the water of a third of a spacing: bounded, not accurate. With the step that its mass allows, and a smaller one.
+    "taylor_plate_light": ("taylor_plate/light.toml", {}, {"end_impulse_error": 1.1, "energy_error": 0.03}),
+    "taylor_plate_light_small_steps": ("taylor_plate/light.toml", {"scheme.courant": 0.1}, {"end_impulse_error": 0.9,
+                                                                                            "energy_error": 0.02}),
     "free_field": ("free_field", {}, {"l1_pressure_r4": 0.04, "l1_pressure_r8": 0.045, "energy_error": 0.004}),
     "free_field_spherical": ("free_field/spherical.toml", {}, {"l1_pressure_r4": 0.026, "l1_pressure_r8": 0.035,
                                                                "energy_error": 0.004}),

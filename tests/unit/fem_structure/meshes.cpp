@@ -104,6 +104,43 @@ TEST(Meshes, WetFacesPointIntoTheStructure) {
   }
 }
 
+/// What is behind a wet node: of a sheet the mass of its whole thickness over the node's area, however many cells are through.
+TEST(Meshes, WetNodesCarryWhatIsBehindThem) {
+  for (const ElementKind kind : {ElementKind::hexahedron, ElementKind::shell})
+    for (const int through : {1, 2, 3}) {
+      if (kind == ElementKind::shell && through > 1) continue;
+      for (const bool both : {false, true}) {
+        Settings settings = plate(Vec3(0, 0, 0), Vec3(2, 3, 0.1), {2, 3, through}, elastic(1000, 1e9, 0.3));
+        settings.element = kind;
+        settings.wet_faces = {"z_low"};
+        if (both) settings.wet_faces.push_back("z_high");
+        const Structure structure(settings);
+        const auto mass = structure.wet_masses();
+        const std::vector<Vec3>& x = structure.wet_surface().nodes;
+        ASSERT_EQ(mass.size(), x.size());
+        double sum = 0.0;
+        for (std::size_t n = 0; n < mass.size(); ++n) {
+          const auto edge = [&](double at, double end) { return at == 0.0 || at == end ? 0.5 : 1.0; };
+          EXPECT_NEAR(mass[n], (both ? 0.5 : 1.0) * 100 * edge(x[n][0], 2) * edge(x[n][1], 3), 1e-9);
+          sum += mass[n];
+        }
+        EXPECT_NEAR(sum, structure.total_mass(), 1e-9);
+      }
+    }
+  const Structure whole(tube(2, {}));
+  const auto mass = whole.wet_masses();
+  double sum = 0.0;
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    const bool end = std::abs(std::abs(whole.wet_surface().nodes[n][2]) - 0.1143) < 1e-9;
+    EXPECT_NEAR(mass[n], whole.total_mass() / (32 * 8) * (end ? 0.5 : 1.0), 1e-9);
+    sum += mass[n];
+  }
+  EXPECT_NEAR(sum, whole.total_mass(), 1e-9);
+  Settings dry = tube(2, {});
+  dry.wet_faces.clear();
+  EXPECT_TRUE(Structure(dry).wet_masses().empty());
+}
+
 TEST(Meshes, RodFillsTheCylinder) {
   for (int axis = 0; axis < 3; ++axis) {
     double coarse_error = 0.0;
