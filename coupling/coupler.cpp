@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <variant>
 
 #include "sph_fluid/lattice.hpp"
@@ -31,31 +32,30 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& s
   const WetSurface& surface = structure.wet_surface();
   const std::vector<double> area = nodal_areas(surface);
   const auto mass = structure.wet_masses();
-  // Stiffness [Pa/m] that one layer of a body's particles shows the wall.
-  std::vector<double> stiffness;
+  // Liquids, and the stiffness [Pa/m] that one layer of their particles shows the wall.
+  std::vector<std::pair<const sph::Body*, double>> liquids;
   for (const sph::Body& body : fluid.bodies) {
+    if (body.variable_h) continue;
     const double rho = sph::start_density(body), energy = sph::start_energy(body);
     const double c = std::visit([&](const auto& law) { return law.evaluate(rho, energy).sound_speed; }, body.material.law);
-    stiffness.push_back(rho * c * c / body.spacing.value_or(fluid.lattice.spacing));
+    liquids.emplace_back(&body, rho * c * c / body.spacing.value_or(fluid.lattice.spacing));
   }
   sph::StepLimit limit;
   limit.step = std::numeric_limits<double>::infinity();
   limit.criterion = "added mass";
+  if (liquids.empty()) return limit;
   for (std::size_t n = 0; n < mass.size(); ++n) {
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < stiffness.size(); ++b) {
-      const double distance = signed_distance(fluid.bodies[b].shape, surface.nodes[n], fluid.dimension);
-      if (distance < least) {
-        least = distance;
-        nearest = b;
-      }
-    }
-    const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * stiffness[nearest]));
+    const auto distance = [&](const auto& liquid) {
+      return signed_distance(liquid.first->shape, surface.nodes[n], fluid.dimension);
+    };
+    const auto& [body, stiffness] = *std::min_element(liquids.begin(), liquids.end(), [&](const auto& one, const auto& other) {
+      return distance(one) < distance(other);
+    });
+    const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * stiffness));
     if (step < limit.step) {
       limit.step = step;
       limit.position = surface.nodes[n];
-      limit.body = fluid.bodies[nearest].name;
+      limit.body = body->name;
     }
   }
   return limit;

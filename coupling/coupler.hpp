@@ -26,10 +26,11 @@ struct InterfaceLedger {
 };
 
 /// The longest window [s] in which the water may act on a wall that it has seen move at the window's start: the least over
-/// the wet nodes of share sqrt(m dx/rho)/c, m being the wall's mass per area, rho and c those at the start of the body of
-/// fluid nearest to the node, dx its spacing. Wall and first layer of particles oscillate against each other; where the wall
-/// is the lighter one, by its mass on the layer's stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of
-/// order one, and `share` is omega times the window. `criterion` is "added mass", `position` the node's.
+/// the wet nodes of share sqrt(m dx/rho)/c, m being the wall's mass per area, rho, c and dx density and sound speed at the
+/// start and spacing of the nearest liquid (gases and products are soft by the time they fill the place before a wall).
+/// Wall and first layer of particles oscillate against each other; where the wall is the lighter one, by its mass on the layer's
+/// stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of order one, and `share` is omega times the
+/// window. `criterion` is "added mass", `position` the node's; the step is infinite where there is no liquid.
 sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure);
 
 class Coupler {

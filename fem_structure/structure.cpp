@@ -401,7 +401,7 @@ std::size_t Structure::memory_bytes() const {
   const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
   std::size_t bytes = self_->elements->memory_bytes() + 9 * nodes * sizeof(Vec3);
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
-  return bytes + wet * (4 * sizeof(Vec3) + sizeof(int)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
+  return bytes + wet * (4 * sizeof(Vec3) + sizeof(int) + sizeof(double)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }
 double Structure::total_mass() const {
   const auto& mass = self_->elements->nodal_mass();

@@ -112,19 +112,24 @@ TEST(AddedMass, LimitInClosedForm) {
   sph::Settings fine = column;
   fine.bodies[0].spacing = 0.25;
   EXPECT_NEAR(added_mass_limit(fine, RigidPlate(rho)).step, 0.5 * 0.35 / sound, 1e-12);
-  // Gas behind the plate's layer of water does not count, gas at the plate does.
+  // Of two liquids the nearest counts; gas does not.
   sph::Settings two = column;
   two.bodies.push_back(two.bodies[0]);
-  two.bodies[1].name = "gas";
-  two.bodies[1].material = {"gas", "", materials::IdealGas({.rho0 = 1.0, .gamma = 1.4}), 1.0};
-  two.bodies[1].energy = 2.5e5;
+  two.bodies[1].name = "oil";
+  two.bodies[1].material = {"oil", "", materials::StiffenedGas({.rho0 = 800.0, .gamma = 1.1, .p_inf = 1e9}), 800.0};
+  two.bodies[1].density = 800.0;
+  two.bodies[1].energy = (rest_pressure + 1.1e9) / (0.1 * 800.0);
   two.bodies[0].shape.base = Box{Vec3(-2, -1, -1), Vec3(0, 1, 1)};
   two.bodies[1].shape.base = Box{Vec3(-20, -1, -1), Vec3(-2, 1, 1)};
   EXPECT_EQ(added_mass_limit(two, RigidPlate(rho)).body, "water");
   std::swap(two.bodies[0].shape, two.bodies[1].shape);
-  const sph::StepLimit beside_gas = added_mass_limit(two, RigidPlate(rho));
-  EXPECT_EQ(beside_gas.body, "gas");
-  EXPECT_NEAR(beside_gas.step, 0.35 * std::sqrt(rho / (1.4 * rest_pressure)), 1e-9 * beside_gas.step);
+  const sph::StepLimit beside_oil = added_mass_limit(two, RigidPlate(rho));
+  EXPECT_EQ(beside_oil.body, "oil");
+  EXPECT_NEAR(beside_oil.step, 0.35 * std::sqrt(rho / (1.1 * (rest_pressure + 1e9))), 1e-9 * beside_oil.step);
+  two.bodies[1].variable_h = true;
+  EXPECT_EQ(added_mass_limit(two, RigidPlate(rho)).body, "water");
+  two.bodies[0].variable_h = true;
+  EXPECT_EQ(added_mass_limit(two, RigidPlate(rho)).step, std::numeric_limits<double>::infinity());
 }
 
 /// A sheet of particles two spacings thick: its nodes share its mass about as they share its area.
