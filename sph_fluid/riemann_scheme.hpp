@@ -14,9 +14,13 @@
 // density behind a shock is that of the particles' distances, whatever happened within the front. Elsewhere w is rho_i, which
 // is consistent across jumps of density and holds on in expansion (rho_j would keep an error of density constant while the
 // density itself falls).
-// In a pair with gas (or detonation products) the central parts are plain averages and only the
-// dissipative parts are reconstructed: the jump of density at a contact is not a gradient to be followed. p* >= 0.
-// In such pairs all three rates carry the factor 2/(f_i + f_j), f being the filling (reconstruction.hpp) of gas and 1 of
+// In a pair with gas (or detonation products) the central parts are not reconstructed, only the dissipative parts are: the
+// jump of density at a contact is not a gradient to be followed. Within a body they are plain averages; between two bodies
+//   central p = (rho_j p_i + rho_i p_j)/(rho_i + rho_j),      central u = (Z_i u_i + Z_j u_j)/(Z_i + Z_j)
+// Across a contact the acceleration is continuous, not the gradient of p: the slopes of p are as the densities (Hu, Adams 2007,
+// J. Comput. Phys. 227, doi 10.1016/j.jcp.2007.07.013), and the heavy side hardly feels the light one: the contact moves with
+// it. Plain averages throw light gas off the water that drives it. p* >= 0.
+// In all pairs with gas all three rates carry the factor 2/(f_i + f_j), f being the filling (reconstruction.hpp) of gas and 1 of
 // liquids. Without it (f = 1 for all) a volume that is wrong by a factor f changes f times as fast as its surroundings: after
 // an expansion by f/(f - 1) it is infinite. One factor a pair: nothing is lost of conservation.
 #pragma once
@@ -83,9 +87,13 @@ struct Riemann {
     const V inverse_Z = reciprocal(Z);
     const V jump = uL - uR;
     const V closing = maximum(jump, V{});
-    const V sound = Z * reciprocal(i.rho + j.rho);
-    const V central_p = T(0.5) * (pair.gas ? i.p + j.p : pL + pR);
-    const V central_u = pair.gas ? T(0.5) * u : (Zi * uL + Zj * uR) * inverse_Z;
+    const V inverse_rho = reciprocal(i.rho + j.rho);
+    const V sound = Z * inverse_rho;
+    V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
+    if (pair.gas) {
+      central_p = pair.foreign ? (j.rho * i.p + i.rho * j.p) * inverse_rho : T(0.5) * (i.p + j.p);
+      central_u = pair.foreign ? Zj * u * inverse_Z : T(0.5) * u;
+    }
     const V p_star = maximum(central_p + switched(closing, sound) * (Zi * Zj * inverse_Z) * jump, V{});
     const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
     return {inverse_r, u, p_star, u_star};

@@ -35,6 +35,10 @@ CASES = {
                                  {"l1_pressure": 0.0135, "l1_velocity": 0.032, "contact_error_spacings": 0.5,
                                   "contact_oscillation": 0.02, "right_front_error_spacings": 3.5},
                                  {"right_pressure_pa": 0.006, "right_velocity_change_m_s": 0.02}),
+    # Water drives gas of a twentieth of its density.
+    "water_gas": Case("gas_water_shock_tube/water_gas.toml", (1e-3, 5e-4),
+                      {"l1_pressure": 0.0083, "l1_velocity": 0.012, "contact_error_spacings": 0.5, "contact_oscillation": 0.005,
+                       "right_front_error_spacings": 0.6}, {}, {"l1_pressure": 0.4}),
     "jwl_water": Case("jwl_water", (1e-3, 5e-4),
                       {"l1_pressure": 0.0055, "l1_velocity": 0.0095, "contact_oscillation": 0.02, "contact_error_spacings": 0.3},
                       {"right_pressure_pa": 0.008, "left_pressure_pa": 0.004, "right_velocity_change_m_s": 0.003},

@@ -1,4 +1,4 @@
-// What each further pair scheme is for: corrected gradients, walls as published, a viscosity that switches, even spacing.
+// What the pair schemes are for: contacts, corrected gradients, walls as published, a viscosity that switches, even spacing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,6 +39,59 @@ std::size_t middle_of(const Result& r, int d, int n, double dx) {
   for (std::size_t i = 0; i < r.particles.size(); ++i)
     if ((place(r.particles[i]) - middle).norm() < (place(r.particles[best]) - middle).norm()) best = i;
   return best;
+}
+
+// ---- riemann: contacts -------------------------------------------------------------------------------------------
+
+/// A particle of gas at x = 0 and one of water, a thousand times as dense, a spacing to its right: `gas` and `water` set their states.
+/// Rates of the gas first, whichever body comes first.
+template <class SetGas, class SetWater>
+std::vector<Rate> contact(bool water_first, SetGas gas, SetWater water) {
+  const auto particle = [](double x, double rho, double c) {
+    Particle q{};
+    q.x = x;
+    q.p = 1e6;
+    q.volume = 0.1;
+    q.rho = rho;
+    q.c = c;
+    q.h = 0.15;
+    return q;
+  };
+  Particle light = particle(0.0, 1.0, 374.0), heavy = particle(0.1, 1000.0, 1500.0);
+  gas(light);
+  water(heavy);
+  Sample sample;
+  sample.dimension = 1;
+  sample.scheme = SchemeName::riemann;
+  sample.sets = {Set{{light}, true, 0.3}, Set{{heavy}, false, 0.3}};
+  if (water_first) std::swap(sample.sets[0], sample.sets[1]);
+  std::vector<Rate> rates = run(sample).rates;
+  if (water_first) std::swap(rates[0], rates[1]);
+  return rates;
+}
+const auto as_it_is = [](Particle&) {};
+
+/// Where water leaves gas behind at equal pressure, the gap is the gas's: it expands, by the impedances' ratio more than the water.
+TEST(Contact, MovesWithTheHeavySide) {
+  for (const bool water_first : {false, true}) {
+    const std::vector<Rate> rates = contact(water_first, as_it_is, [](Particle& q) { q.vx = 10.0; });
+    ASSERT_LT(rates[0].compression, 0.0);
+    EXPECT_NEAR(rates[0].compression / rates[1].compression, 1500e3 / 374.0, 1e-9 * 1500e3 / 374.0);
+    for (const Rate& rate : rates) EXPECT_NEAR(rate.heat, 0.0, 1e-9 * std::abs(rate.compression) * 1e6);
+  }
+}
+
+/// Pressures that fall from the contact as the densities, as a common acceleration wants it: the pair's pressure is the contact's.
+TEST(Contact, PressureIsThatOfACommonAcceleration) {
+  const double slope = 100.0;  // m/s^2
+  for (const bool water_first : {false, true}) {
+    const auto even = contact(water_first, as_it_is, as_it_is);
+    const auto rising = contact(water_first, [&](Particle& q) { q.p += 0.05 * q.rho * slope; },
+                                [&](Particle& q) { q.p -= 0.05 * q.rho * slope; });
+    ASSERT_GT(std::abs(even[0].a[0]), 0.0);
+    EXPECT_NEAR(rising[0].a[0] / even[0].a[0], 1.0, 1e-12);
+    EXPECT_NEAR(rising[1].a[0] / even[1].a[0], 1.0, 1e-12);
+  }
 }
 
 // ---- riemann_corrected -------------------------------------------------------------------------------------------
