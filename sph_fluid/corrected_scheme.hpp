@@ -3,7 +3,11 @@
 // p* and u* are those of riemann_scheme.hpp, and with v* = (v_i + v_j)/2 + (u* - (u_i + u_j)/2) e
 //   (d rho/dt)_i = 2 rho_i sum_j V_j (v_i - v*) . g_ij
 //   (d v/dt)_i   = -2 sum_j m_j p*/(rho_i rho_j) g_ij
-//   heat_i       = 2 sum_j m_j (p* - p_i)/(rho_i rho_j) (v_i - v*) . g_ij
+//   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i - v*) . g_ij
+// but where two particles of one material approach each other their part of the density rate is that of riemann_scheme.hpp,
+//   2 m_j (v_i . e - u*)(-F r)
+// the time derivative of sum_j m_j W_ij, with the kernel's own gradient: B, made of the volumes that are carried, would divide out
+// by how much these differ from the space there is, and an error of density within a shock's front would stay.
 // g_ij = -g_ji, and force and work have one p* and one v*: mass, momentum and total energy are conserved to round-off. g_ij does
 // not lie along the pair, so angular momentum is not. Sums over the space that neighbours fill come out right whatever the
 // lattice factor, near walls, and where the volumes claim more or less than the space there is: B is then 1/f times what it
@@ -90,10 +94,17 @@ struct RiemannCorrected {
     const V shared = (T(0.5) * pair.F) * ((i.vx - j.vx) * g.dx + (i.vy - j.vy) * g.dy + (i.vz - j.vz) * g.dz);
     const V apart = pair.F * inverse_r * (pair.dx * g.dx + pair.dy * g.dy + pair.dz * g.dz) * (u_star - T(0.5) * u);
     const V Di = j.volume * (shared + apart), Dj = i.volume * (shared - apart);
-    si.compression += Di;
-    sj.compression += Dj;
-    si.heat += Di * (p_star - i.p);
-    sj.heat += Dj * (p_star - j.p);
+    V Ci = Di, Cj = Dj;  // of the density
+    if (pair.alike) {
+      const Mask<T> approach = u < 0;
+      const V Fr = 2 * pair.F * (pair.r2 * inverse_r);
+      Ci = approach ? j.volume * j.rho * reciprocal(i.rho) * (Fr * u_star) : Di;
+      Cj = approach ? i.volume * i.rho * reciprocal(j.rho) * (Fr * (u - u_star)) : Dj;
+    }
+    si.compression += Ci;
+    sj.compression += Cj;
+    si.heat += Di * p_star - Ci * i.p;
+    sj.heat += Dj * p_star - Cj * j.p;
     const V speed = keep(pair.near, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);

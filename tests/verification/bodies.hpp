@@ -38,7 +38,9 @@ inline std::vector<double> along_x(const std::vector<double>& field) {
   return x;
 }
 
-inline std::string name_of(SchemeName scheme) { return scheme == SchemeName::riemann ? "riemann" : "monaghan"; }
+inline std::string name_of(SchemeName scheme) {
+  return scheme == SchemeName::riemann ? "riemann" : scheme == SchemeName::riemann_corrected ? "riemann_corrected" : "monaghan";
+}
 
 inline std::string scientific(double value) {
   char text[32];

@@ -135,6 +135,35 @@ TEST(Corrected, WrongVolumesExpandAsTheirSurroundings) {
     }
 }
 
+/// In compression the density rate is the time derivative of sum_j m_j W_ij, whatever volumes are carried and wherever the
+/// neighbours are: what a shock's front did to the densities does not stay.
+TEST(Corrected, CompressionIsThatOfTheDistances) {
+  for (int d = 1; d <= 3; ++d) {
+    const int n = 13;
+    Dice dice(7);
+    Sample sample = cube(d, n, 0.1, 1.5, 0.1, [&](Particle& q) {
+      q.vx = -2.0 * q.x;
+      q.vy = d > 1 ? -2.0 * q.y : 0.0;
+      q.vz = d > 2 ? -2.0 * q.z : 0.0;
+      q.p = 1e5;
+      q.rho = 1000.0 * dice.between(0.9, 1.1);
+      q.volume *= dice.between(0.9, 1.2);
+    });
+    sample.scheme = SchemeName::riemann_corrected;
+    const Result r = run(sample);
+    const std::size_t i = middle_of(r, d, n, 0.1);
+    const Particle& me = r.particles[i];
+    double wanted = 0;
+    for (const Particle& q : r.particles) {
+      const double distance = (place(q) - place(me)).norm();
+      if (distance == 0.0 || distance >= 2.0 * me.h) continue;
+      wanted += q.rho * q.volume * (speed(me) - speed(q)).dot(place(me) - place(q)) *
+                reference_scale(sample.kernel, d) * reference_slope(sample.kernel, distance / me.h) / std::pow(me.h, d + 2);
+    }
+    EXPECT_NEAR(r.rates[i].compression * me.rho / wanted, 1.0, 1e-5) << d;
+  }
+}
+
 /// Among scattered particles: the expansion rate of a linear flow, averaged over particles with all their neighbours. (Each
 /// one's own error has a part without order, that of Bj - Bi, as every conservative form has.)
 TEST(Corrected, ScatteredLinearFlow) {
