@@ -15,7 +15,7 @@
 // is consistent across jumps of density and holds on in expansion (rho_j would keep an error of density constant while the
 // density itself falls).
 // In a pair with gas (or detonation products) the central parts are not reconstructed, only the dissipative parts are: the
-// jump of density at a contact is not a gradient to be followed. Within a body they are plain averages; between two bodies
+// jump of density at a contact is not a gradient to be followed. Within one material they are plain averages; between two
 //   central p = (rho_j p_i + rho_i p_j)/(rho_i + rho_j),      central u = (Z_i u_i + Z_j u_j)/(Z_i + Z_j)
 // Across a contact the acceleration is continuous, not the gradient of p: the slopes of p are as the densities (Hu, Adams 2007,
 // J. Comput. Phys. 227, doi 10.1016/j.jcp.2007.07.013), and the heavy side hardly feels the light one: the contact moves with
@@ -91,8 +91,8 @@ struct Riemann {
     const V sound = Z * inverse_rho;
     V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
     if (pair.gas) {
-      central_p = pair.foreign ? (j.rho * i.p + i.rho * j.p) * inverse_rho : T(0.5) * (i.p + j.p);
-      central_u = pair.foreign ? Zj * u * inverse_Z : T(0.5) * u;
+      central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * inverse_rho;
+      central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
     }
     const V p_star = maximum(central_p + switched(closing, sound) * (Zi * Zj * inverse_Z) * jump, V{});
     const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;

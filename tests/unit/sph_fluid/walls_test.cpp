@@ -173,6 +173,7 @@ Settings ball_in_box(bool octant, SchemeName scheme) {
 /// An octant is the same computation as the whole, particle for particle.
 TEST(Symmetry, OctantIsTheFullRun) {
   for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann}) {
+    const bool rounds = scheme == SchemeName::riemann;  // its gradients are single precision, and round differently in the mirror
     Fluid octant(ball_in_box(true, scheme)), full(ball_in_box(false, scheme));
     ASSERT_EQ(8 * octant.particle_count(), full.particle_count());
     const std::vector<Vec3> start = by_id(full, "position"), start_octant = by_id(octant, "position");
@@ -181,7 +182,7 @@ TEST(Symmetry, OctantIsTheFullRun) {
       partner[i] = std::size_t(std::find_if(start.begin(), start.end(), [&](const Vec3& x) { return (x - start_octant[i]).norm() < 1e-9; }) - start.begin());
     for (int k = 0; k < 15; ++k) {
       const double dt = octant.step_limit().step;
-      EXPECT_NEAR(full.step_limit().step, dt, 1e-9 * dt);
+      EXPECT_NEAR(full.step_limit().step, dt, (rounds ? 1e-8 : 1e-9) * dt);  // shorter by the closing speeds
       octant.step(dt);
       full.step(dt);
     }
@@ -195,8 +196,7 @@ TEST(Symmetry, OctantIsTheFullRun) {
       EXPECT_LT((x[i] - X[partner[i]]).norm(), 1e-10);
       worst = std::max(worst, (v[i] - V[partner[i]]).norm() / fastest);
     }
-    // Riemann's gradients are single precision, and round differently in the mirror.
-    EXPECT_LT(worst, scheme == SchemeName::riemann ? 1e-6 : 1e-9);
+    EXPECT_LT(worst, rounds ? 1e-6 : 1e-9);
     const Ledger a = octant.ledger(), b = full.ledger();
     EXPECT_NEAR(8 * a.kinetic, b.kinetic, 1e-6 * b.kinetic);
     EXPECT_NEAR(8 * a.mass, b.mass, 2e-5 * b.mass);
