@@ -39,28 +39,30 @@ void catch_signals() {
 /// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
 class EnergyHistory {
  public:
-  explicit EnergyHistory(const std::filesystem::path& folder)
-      : history_(folder / "energy.csv", {{"time", "s"},
-                                         {"kinetic", "J"},
-                                         {"internal", "J"},
-                                         {"dissipated", "J"},
-                                         {"structure_kinetic", "J"},
-                                         {"structure_elastic", "J"},
-                                         {"structure_plastic", "J"},
-                                         {"structure_viscous", "J"},
-                                         {"interface_work_given", "J"},
-                                         {"interface_work_received", "J"},
-                                         {"external", "J"},
-                                         {"total", "J"},
-                                         {"error", ""}}) {}
+  EnergyHistory(const std::filesystem::path& folder, bool gravity) : gravity_(gravity), history_(folder / "energy.csv", columns(gravity)) {}
   void sample(const Simulation& simulation) {
     const EnergyBalance e = simulation.energy();
-    history_.append({simulation.time(), e.kinetic, e.internal, e.dissipated, e.structure_kinetic, e.elastic, e.plastic,
-                     e.viscous, e.work_given, e.work_received, e.external, e.total(), e.error()});
+    std::vector<double> row{simulation.time(), e.kinetic, e.internal, e.dissipated, e.structure_kinetic, e.elastic, e.plastic,
+                            e.viscous, e.work_given, e.work_received, e.external};
+    if (gravity_) row.push_back(e.gravity);
+    row.insert(row.end(), {e.total(), e.error()});
+    history_.append(row);
   }
   void flush() { history_.flush(); }
 
  private:
+  static std::vector<output::Column> columns(bool gravity) {
+    std::vector<output::Column> all{{"time", "s"}};
+    for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
+                             "structure_viscous", "interface_work_given", "interface_work_received", "external"})
+      all.push_back({name, "J"});
+    if (gravity) all.push_back({"gravity", "J"});
+    all.push_back({"total", "J"});
+    all.push_back({"error", ""});
+    return all;
+  }
+
+  bool gravity_;
   output::History history_;
 };
 
@@ -198,7 +200,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
   output::write_text_atomically(folder / "resolved.toml", resolved);
   std::filesystem::remove(folder / "summary.json");  // an older run's must not pass for this one's
   Probes probes(scene, simulation, folder);
-  EnergyHistory energy(folder);
+  EnergyHistory energy(folder, !scene.fluid.gravity.isZero());
   Snapshots snapshots(scene, folder);
   Progress progress(simulation.time(), scene.end_time, options.verbosity);
   catch_signals();

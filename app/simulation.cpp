@@ -42,7 +42,7 @@ Simulation::Simulation(const scene::Scene& scene) {
     }
   const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty() ||
                                             !scene.structure->planes.empty());
-  closed_ = !planes && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
+  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
   start_mass_ = mass();
   start_momentum_ = momentum();
   if (solids_) start_angular_momentum_ = solids_->ledger().angular_momentum;
@@ -97,6 +97,7 @@ EnergyBalance Simulation::energy() const {
     e.internal = copies_ * l.internal;
     e.dissipated = copies_ * l.dissipated;
     e.work_given = copies_ * l.wall_work;
+    e.gravity = copies_ * l.gravity;
   }
   if (structure_) {
     const fem::Energies s = structure_->energies();
@@ -105,6 +106,7 @@ EnergyBalance Simulation::energy() const {
     e.plastic = copies_ * s.plastic;
     e.viscous = copies_ * (s.viscous + s.impact);
     external = copies_ * s.external;
+    e.gravity += copies_ * s.gravity;
   }
   if (solids_) {
     const sph::SolidLedger s = solids_->ledger();
@@ -113,13 +115,14 @@ EnergyBalance Simulation::energy() const {
     e.plastic = copies_ * s.plastic;
     e.viscous = copies_ * s.viscous;
     external = copies_ * s.external;
+    e.gravity += copies_ * s.gravity;
   }
   if (coupler_ || particle_system_)
     e.work_received = external;
   else
     e.external = external;
   e.start = start_energy_;
-  e.scale = std::max({energy_scale_, std::abs(e.external), e.kinetic + e.structure_kinetic});
+  e.scale = std::max({energy_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
   return e;
 }
 

@@ -21,9 +21,10 @@ struct EnergyBalance {
   double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
   double work_given = 0, work_received = 0;                     // across the interface
   double external = 0;                                          // work of prescribed loads on the structure, of rigid planes on solids
+  double gravity = 0;                                           // its work on everything
   double start = 0;                                             // sum at the start
   double total() const {
-    return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external;
+    return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity;
   }
   double scale = 0;                                             // what errors are measured against
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
@@ -44,7 +45,7 @@ class Simulation {
 
   EnergyBalance energy() const;
   double mass_error() const;
-  /// Relative change of momentum of everything together; NaN where walls, rigid planes, supports or symmetry planes take part.
+  /// Relative change of momentum of everything together; NaN where gravity, walls, rigid planes, supports or symmetry planes take part.
   double momentum_error() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;

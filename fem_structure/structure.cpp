@@ -266,7 +266,8 @@ struct Structure::Implementation {
     const long n = static_cast<long>(position.size());
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i)
-      acceleration[i] = (load_force[i] + impulse_force[i] - internal_force[i]).cwiseProduct(inverse_mass[i]);
+      acceleration[i] = (load_force[i] + impulse_force[i] - internal_force[i] + elements->nodal_mass()[i] * settings.gravity)
+                            .cwiseProduct(inverse_mass[i]);
   }
 
   /// dt^2/8 m a.a, by which half the product of the neighbouring half-step velocities falls short of m v.v/2.
@@ -423,8 +424,10 @@ void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->ad
 Energies Structure::energies() const {
   Energies energies;
   const auto& mass = self_->elements->nodal_mass();
-  for (std::size_t i = 0; i < mass.size(); ++i)
+  for (std::size_t i = 0; i < mass.size(); ++i) {
     energies.kinetic += 0.5 * mass[i] * self_->velocity[i].squaredNorm();
+    energies.gravity += mass[i] * self_->settings.gravity.dot(self_->position[i] - self_->grid.nodes[i]);
+  }
   energies.integrator = self_->integrator_jumps - self_->integrator_held;
   energies.elastic = self_->elements->elastic_energy();
   energies.plastic = self_->elements->plastic_work();

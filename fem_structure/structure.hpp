@@ -17,6 +17,7 @@ struct Energies {
   double kinetic = 0, elastic = 0, plastic = 0;
   double viscous = 0;   ///< bulk viscosity's dissipation
   double external = 0;  ///< work of impulses and pressure loads received
+  double gravity = 0;   ///< work of gravity
   double impact = 0;    ///< kinetic energy of nodes lost as they hit rigid planes (vanishes with their mass)
   double reaction = 0;  ///< work of supports: zero for fixed ones, kept as a check
   /// What the time integrator has held back or made, a term of second order in the step that is known exactly: central
@@ -25,7 +26,7 @@ struct Energies {
   double integrator = 0;
 
   /// Stays at its first value (the initial kinetic energy), but for what finite strain within a step leaves.
-  double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - external - reaction; }
+  double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - external - gravity - reaction; }
 };
 
 /// Fields at the cells' centres (averages over the quadrature points) and at the nodes, for output and probes.

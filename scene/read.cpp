@@ -30,6 +30,7 @@ void read_top(Draft& draft) {
   table.need("end_time", "give it in s, e.g. end_time = 1e-4");
   table.read("end_time", scene.end_time);
   table.read("threads", scene.fluid.numerics.threads);
+  table.read("gravity", scene.fluid.gravity);
 }
 
 /// Each mistake once: a material that two bodies use is read twice.

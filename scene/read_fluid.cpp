@@ -116,6 +116,30 @@ bool is_gas(const FluidLaw& law) {
          std::holds_alternative<Jwl>(law);
 }
 
+/// Where the body has its pressure under gravity, and whether it can have the pressures above and below.
+void read_level(const TableReader& table, const Draft& draft, bool shape_good, bool pressure_good, sph::Body& body) {
+  Vec3 level = Vec3::Zero();
+  if (!table.read("level", level)) return;
+  const std::string path = table.path_of("level");
+  const Vec3& gravity = draft.scene.fluid.gravity;
+  if (gravity.isZero()) {
+    table.complain("level", path + " means nothing without gravity; add gravity at the top of the file, e.g. gravity = [0, 0, -9.81], or "
+                                   "leave it out");
+  } else if (!table.has("pressure") || body.density) {
+    table.complain("level", path + " is where the body has its pressure: give pressure, and leave out density");
+  } else if (std::holds_alternative<Jwl>(body.material.law)) {
+    table.complain("level", path + ": the law of '" + body.material.name + "' is that of a charge, which starts uniform; leave it out");
+  } else if (pressure_good && shape_good && (bounds(body.shape.base, table.dimension()).high.head(table.dimension()).array() < 1e200).all()) {
+    body.level = level;
+    try {
+      sph::hydrostatic_column(body, gravity, table.dimension());
+    } catch (const std::domain_error& error) {
+      table.complain("level", path + ": with " + shortest(*body.pressure) + " Pa there the body has no hydrostatic equilibrium: " +
+                                  error.what() + "; raise pressure, or move level");
+    }
+  }
+}
+
 /// A charge of law jwl burns from its middle unless told otherwise; burn = "instantaneous" is short for a table.
 void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   const auto* products = std::get_if<Jwl>(&body.material.law);
@@ -206,6 +230,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
       table.complain("pressure", table.path_of("pressure") + " = " + shortest(*body.pressure) + " Pa: " + error.what());
     }
   }
+  read_level(table, draft, shape_good, pressure_good, body);
   if (body.energy && !uses_energy(body.material.law))
     table.complain("energy", table.path_of("energy") + ": the law of '" + body.material.name +
                                  "' is barotropic, it has no energy; leave it out");

@@ -230,6 +230,7 @@ void read_structure(Draft& draft) {
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
   structure.planes = draft.scene.fluid.planes;
+  structure.gravity = draft.scene.fluid.gravity;
   if (table.read("wet", structure.wet_faces))
     for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
   table.read("velocity", structure.initial_velocity);

@@ -173,6 +173,7 @@ void put_body(Writer& writer, const sph::Body& body) {
   writer.put("velocity", body.velocity);
   writer.put("radial_velocity", body.radial_velocity);
   writer.put("pressure", body.pressure);
+  if (body.level) writer.put("level", *body.level);
   writer.put("density", body.density);
   writer.put("energy", body.energy);
   writer.put("variable_h", body.variable_h);
@@ -384,6 +385,7 @@ std::string to_toml(const Scene& scene) {
   writer.put("dimension", dimension);
   writer.put("end_time", scene.end_time);
   writer.put("threads", scene.fluid.numerics.threads);
+  writer.put("gravity", scene.fluid.gravity);
   put_fluid(writer, scene.fluid);
   if (scene.structure) {
     writer.set_dimension(3);

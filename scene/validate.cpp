@@ -39,6 +39,7 @@ class Validator {
     lattice();
     if (!draft_.dimension_good) return;
     collect();
+    gravity();
     for (const Part& each : parts_) usable_.push_back(part(each));
     overlaps();
     walls();
@@ -116,6 +117,23 @@ class Validator {
                                                 "take [[walls]]");
     if (draft_.body_nodes.empty() && !draft_.wall_nodes.empty())
       draft_.report.add(*draft_.wall_nodes[0], "walls without [[bodies]]: add the fluid that they hold, or remove them");
+  }
+
+  void gravity() {
+    if (fluid_.gravity.isZero()) return;
+    // A plane that cuts nothing is a wall; there the image may fall the other way.
+    const auto cut = [&](int a) {
+      if (solid_ && bounds(*solid_, dimension_).low[a] < -tolerance()) return true;
+      for (const Part& part : parts_)
+        if (part.shape_good && bounds(*part.shape, dimension_).low[a] < -tolerance()) return true;
+      return false;
+    };
+    for (int a = 0; a < 3; ++a)
+      if (fluid_.symmetry.axis[a] && fluid_.gravity[a] != 0 && cut(a))
+        complain(draft_.root, "gravity", std::string("gravity is not its own mirror image across the symmetry plane ") + "xyz"[a] +
+                                             " = 0, which cuts a body; leave that plane out, or that component of gravity");
+    if (scene_.start.kind != Start::Kind::plain)
+      complain(draft_.root, "gravity", "gravity needs start.kind = \"plain\": the flow of the other starts is computed without it");
   }
 
   void lattice() {

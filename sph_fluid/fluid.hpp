@@ -33,6 +33,7 @@ struct Ledger {
   double internal = 0;     ///< internal energy; compression energy where the law is barotropic
   double dissipated = 0;   ///< viscous heat of barotropic bodies (where there is an energy field it is in `internal`)
   double wall_work = 0;    ///< work that the fluid has done on moving walls
+  double gravity = 0;      ///< work that gravity has done on the fluid
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
 };

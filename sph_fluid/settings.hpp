@@ -1,6 +1,7 @@
 // What a scene says about the fluid: lattice, bodies, walls, symmetry, scheme. SI units throughout.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -13,6 +14,7 @@
 #include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
 #include "materials/burn.hpp"
+#include "materials/hydrostatic.hpp"
 #include "materials/library.hpp"
 #include "sph_fluid/kernels.hpp"
 
@@ -112,6 +114,7 @@ struct Body {
   bool variable_h = false;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;             ///< away from the middle of the shape's base, added to `velocity` [m/s]
+  std::optional<Vec3> level{};            ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
 };
 
 /// Specific internal energy [J/kg] of a uniform body at the start.
@@ -126,6 +129,20 @@ inline double start_density(const Body& body) {
   if (body.density) return *body.density;
   if (body.pressure) return materials::density_at(body.material.law, *body.pressure, start_energy(body));
   return body.material.rho0;
+}
+
+/// Pressure of a body with a level over the depth x . g/|g| below it, x from the level. Throws std::domain_error where the law has no
+/// density at a pressure of the column.
+inline materials::HydrostaticColumn hydrostatic_column(const Body& body, const Vec3& gravity, int dimension) {
+  const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3::Zero();
+  const Bounds box = bounds(body.shape, dimension);
+  double low = 0, high = 0;
+  for (int a = 0; a < dimension; ++a) {
+    const double one = down[a] * (box.low[a] - (*body.level)[a]), other = down[a] * (box.high[a] - (*body.level)[a]);
+    low += std::min(one, other);
+    high += std::max(one, other);
+  }
+  return {body.material.law, start_energy(body), body.pressure.value(), gravity.norm(), low, high};
 }
 
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
@@ -198,6 +215,7 @@ struct SolidNumerics {
 
 struct Settings {
   int dimension = 3;
+  Vec3 gravity = Vec3::Zero();            ///< [m/s^2], of fluid and solids alike; its image across a symmetry plane is mirrored
   Lattice lattice;
   std::vector<Body> bodies;
   std::vector<SolidBody> solids;

@@ -95,6 +95,8 @@ SolidLedger Solids::ledger() const {
     });
   }
   ledger.external = self_->external_work;
+  const Vec3& g = self_->settings.gravity;
+  ledger.gravity = sum([&](std::uint32_t i) { return p.mass[i] * g.dot(p.x[i] - p.start[i]); });
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;
   ledger.momentum = blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.v[i]; }).value;
   ledger.angular_momentum =

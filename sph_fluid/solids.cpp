@@ -225,7 +225,7 @@ void Solids::Implementation::find_forces(double dt) {
 void Solids::Implementation::find_acceleration() {
 #pragma omp parallel for schedule(static)
   for (std::uint32_t i = 0; i < particles.size(); ++i)
-    acceleration[i] = (particles.force[i] + impulse_force[i]) / particles.mass[i];
+    acceleration[i] = (particles.force[i] + impulse_force[i]) / particles.mass[i] + settings.gravity;
 }
 
 double Solids::Implementation::held_back(double dt) const {

@@ -26,13 +26,14 @@ struct SolidLedger {
   double plastic = 0;      ///< plastic work
   double viscous = 0;      ///< by viscosity, and what contact between bodies has taken
   double external = 0;     ///< work of impulses received, and of rigid planes (never positive)
+  double gravity = 0;      ///< work of gravity
   double integrator = 0;   ///< what central differences hold back: dt^2/8 m a.a, known exactly (fem::Energies::integrator)
   double mass = 0;                       ///< [kg]
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m^2/s]
 
   /// Stays at its first value, but for what finite strain within a step leaves.
-  double balance() const { return kinetic + integrator + elastic + plastic + viscous - external; }
+  double balance() const { return kinetic + integrator + elastic + plastic + viscous - external - gravity; }
 };
 
 class Solids {

@@ -113,6 +113,7 @@ struct Fluid::Implementation : ParticleSet {
   bool evaluated = false;
   bool sound = true;                             // is the last evaluation finite, and slower than `fastest`?
   double dissipated = 0, wall_work = 0;
+  double lifted = 0;                             // fall() at the start [J]
   long long interaction_sum = 0;
   Clamps clamps;
   Disturbed disturbed;
@@ -143,6 +144,8 @@ struct Fluid::Implementation : ParticleSet {
   /// After the first evaluation: who is not at rest? Whoever is accelerated, be it by an imbalance of the lattice (rings
   /// have one, a Cartesian lattice under pressure has none). Where a wall moves or a charge burns, all are worked on.
   void watch_for_signals();
+  /// Sum of m g . x [J]: what it has grown by is gravity's work.
+  double fall() const;
 
   // The step and its passes: solver_step.cpp.
   void step(double dt);
@@ -198,7 +201,7 @@ struct Fluid::Implementation : ParticleSet {
   void find_images();
   PairInput pair_input();
   void pairs(const PairInput& in);
-  /// Rates per mass from the sums per volume. Where there is an energy field, its rate is the viscous heat plus the
+  /// Rates per mass from the sums per volume, and gravity. Where there is an energy field, its rate is the viscous heat plus the
   /// pressure's work.
   void finish_rates();
   void wall_forces();

@@ -147,6 +147,15 @@ std::string Fluid::Implementation::what_is_wrong() const {
   return text;
 }
 
+double Fluid::Implementation::fall() const {
+  const Particles& p = particles;
+  const Vec3& g = settings.gravity;
+  if (g.isZero()) return 0.0;
+  return blocked_sum<double>(0, std::uint32_t(p.size()), [&](std::uint32_t i) {
+    return p.mass[i] * (g[0] * p.x[i] + g[1] * p.y[i] + g[2] * p.z[i]);
+  });
+}
+
 Ledger Fluid::Implementation::ledger() const {
   const Particles& p = particles;
   struct Part {
@@ -180,6 +189,7 @@ Ledger Fluid::Implementation::ledger() const {
   }
   ledger.dissipated = dissipated;
   ledger.wall_work = wall_work;
+  ledger.gravity = fall() - lifted;
   return ledger;
 }
 

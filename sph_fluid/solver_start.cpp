@@ -29,6 +29,7 @@ Fluid::Implementation::Implementation(const Settings& s)
   kernel_scale = 1.0 / lattice_factor(s.numerics.kernel, s.numerics.eta, s.dimension);
   slip_walls = slip_faces(settings);
   fill();
+  lifted = fall();
   pack_walls();
   particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0,
                       s.numerics.integrator == Integrator::ssp_rk3);
@@ -53,6 +54,8 @@ void Fluid::Implementation::fill() {
     const double energy = start_energy(body), rho = start_density(body);
     const Vec3 center = middle(body.shape.base, settings.dimension);
     group.rest_density = rho;
+    std::optional<materials::HydrostaticColumn> column;
+    if (body.level) column = hydrostatic_column(body, settings.gravity, settings.dimension);
     for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
       const Vec3& x = bodies[b].position[k];
       Vec3 velocity = body.velocity;
@@ -63,8 +66,8 @@ void Fluid::Implementation::fill() {
       particles.vx[at] = velocity[0];
       particles.vy[at] = velocity[1];
       particles.vz[at] = velocity[2];
-      particles.rho[at] = rho;
-      particles.mass[at] = rho * bodies[b].volume[k];
+      particles.rho[at] = column ? column->density((x - *body.level).dot(settings.gravity) / settings.gravity.norm()) : rho;
+      particles.mass[at] = particles.rho[at] * bodies[b].volume[k];
       if (has_energy) particles.energy[at] = energy;
       particles.id[at] = at;
       if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
@@ -110,7 +113,7 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
 }
 
 void Fluid::Implementation::watch_for_signals() {
-  everywhere = !moving.empty() || settings.numerics.signal <= 0.0;
+  everywhere = !moving.empty() || settings.numerics.signal <= 0.0 || !settings.gravity.isZero();
   for (const Body& body : settings.bodies) everywhere = everywhere || body.burn.has_value();
   if (everywhere) return;
   for (std::uint32_t i = 0; i < particles.size(); ++i) {

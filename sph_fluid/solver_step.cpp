@@ -261,9 +261,7 @@ void Fluid::Implementation::equation_of_state(double half, double bend) {
   const auto timer = timers.measure("equation of state");
   double h_max = 0;
   for (Group& group : groups) {
-    // Fast bodies have finished the step when the slow pairs' rates are evaluated.
-    const double open = group.fast && choice == PairChoice::slow ? 0.0 : 1.0;
-    std::visit([&](const auto& law) { evaluate_group(law, group, open * half, open * bend); }, group.body->material.law);
+    std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
     views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h,
                      group.body->variable_h, group.material, group.fast});
     h_max = std::max(h_max, group.h_max);
@@ -281,6 +279,7 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
   const double low = settings.numerics.h_low, high = settings.numerics.h_high;
   const bool burning = group.body->burn.has_value();
   const bool beside = choice == PairChoice::fast && !group.fast;
+  const Vec3& gravity = settings.gravity;
   double h_max = variable ? 0.0 : group.h0;
   long held = 0, empty = 0;
 #pragma omp parallel for schedule(static) reduction(max : h_max) reduction(+ : held, empty)
@@ -296,9 +295,9 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
     if (beside) {
       const auto& [more, before] = p.other[i];
       if (has_energy) energy += slow_ahead * more.heat;
-      q.vx += slow_ahead * more.fx + slow_bend * (more.fx - before.ax);
-      q.vy += slow_ahead * more.fy + slow_bend * (more.fy - before.ay);
-      q.vz += slow_ahead * more.fz + slow_bend * (more.fz - before.az);
+      q.vx += slow_ahead * (more.fx - gravity[0]) + slow_bend * (more.fx - before.ax);
+      q.vy += slow_ahead * (more.fy - gravity[1]) + slow_bend * (more.fy - before.ay);
+      q.vz += slow_ahead * (more.fz - gravity[2]) + slow_bend * (more.fz - before.az);
       rho = advanced_density(rho, slow_ahead * more.compression + slow_bend * (more.compression - before.compression));
     }
     q.rho = rho;
@@ -493,6 +492,8 @@ void Fluid::Implementation::finish_rates() {
   const auto timer = timers.measure("integration");
   Particles& p = particles;
   const bool partly = !everywhere;
+  // With local steps gravity acts about the step, on all alike: in the substeps nobody falls past a neighbour.
+  const Vec3 gravity = choice == PairChoice::fast ? Vec3(Vec3::Zero()) : settings.gravity;
   sound = true;
   for (const Group& group : groups) {
     const bool with_energy = materials::uses_energy(group.body->material.law);
@@ -502,9 +503,9 @@ void Fluid::Implementation::finish_rates() {
       const FluidRow& q = p.predicted[i];
       SumRow& rate = p.rate[i];
       const double specific = 1.0 / q.rho;
-      rate.fx *= specific;
-      rate.fy *= specific;
-      rate.fz *= specific;
+      rate.fx = specific * rate.fx + gravity[0];
+      rate.fy = specific * rate.fy + gravity[1];
+      rate.fz = specific * rate.fz + gravity[2];
       rate.heat *= specific;
       if (with_energy) rate.heat += q.p * specific * rate.compression;
       ok = ok && std::isfinite(q.p + rate.fx + rate.fy + rate.fz + rate.heat + rate.compression);

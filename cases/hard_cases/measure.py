@@ -20,7 +20,7 @@ except ImportError:
     sys.exit(77)  # ctest: skipped
 
 HERE = pathlib.Path(__file__).resolve().parent
-PAPER = ["scheme.name=monaghan", "scheme.kernel=gaussian", "scheme.alpha=1", "scheme.beta=10"]
+PAPER = ["scheme.name=paper"]   # which brings the Gaussian kernel; alpha 1 and beta 10 are the defaults
 
 
 class Run:
@@ -156,6 +156,21 @@ def quiescent(run, speed_limit=1.5, pressure_limit=0.05):
     return found
 
 
+def hydrostatic(run, depth=0.064, level=0.064, gravity=9.81, surface=1e5):
+    """Speed against a free fall's; pressure against that of its place, over what the water weighs. (The density is uniform to 3e-7.)"""
+    found = []
+    for time, f in run.snapshots():
+        speed = np.sqrt(sum(f[f"velocity_{a}"] ** 2 for a in range(3)))
+        fall = gravity * time
+        found.append((f"speed at {time * 1e3:.1f} ms below a tenth of a free fall's", speed.max() < 0.1 * fall,
+                      f"{speed.max():.2g} m/s, rms {np.sqrt(np.mean(speed ** 2)):.2g} (fall {fall:.2g})"))
+        weight = 1000 * gravity * depth
+        off = (f["pressure"] - surface - 1000 * gravity * (level - f["z"])) / weight
+        found.append((f"pressure at {time * 1e3:.1f} ms within a tenth of the weight, rms", np.sqrt(np.mean(off ** 2)) < 0.1,
+                      f"{np.sqrt(np.mean(off ** 2)):.2g}, largest {np.abs(off).max():.2g}, mean {off.mean():+.2g}"))
+    return found
+
+
 def against(run, other, limit, what):
     """Fields of the half x > 0 against another run's."""
     time, f = run.snapshots()[-1]
@@ -185,6 +200,7 @@ CASES = {
     "quiescent_box": lambda run, get: quiescent(run),
     "quiescent_box_no_slip": lambda run, get: quiescent(run, 1e-3, 1e-5),   # to the round-off of single precision
     "quiescent_rings": lambda run, get: quiescent(run),
+    "hydrostatic_box": lambda run, get: hydrostatic(run),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
     "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall of dummies and plane"),
 }

@@ -53,6 +53,27 @@ TEST(Dynamics, SlenderBarWaveSpeed) {
   EXPECT_NEAR(speed / std::sqrt(71e9 / 2700.0), 1.0, 0.005);
 }
 
+/// A bar that begins to hang by its top: the lower end falls freely until the wave from the top has come, and is lowest,
+/// at g L^2/c^2, when it has come back: twice as low as at rest.
+TEST(Dynamics, BarThatBeginsToHang) {
+  const double length = 1.0, width = 0.02, g = 1e4;
+  const auto material = elastic(2700.0, 71e9, 0.0);  // one-dimensional by itself
+  Settings settings = plate(Vec3(0, 0, 0), Vec3(width, width, length), {1, 1, 100}, material);
+  settings.linear_viscosity = settings.quadratic_viscosity = 0.0;
+  settings.supports = {{"z_high", {true, true, true}}};
+  settings.gravity = Vec3(0, 0, -g);
+  Structure bar(settings);
+  const auto end = bar.locate(Vec3(0.5 * width, 0.5 * width, 0));
+  const double speed = materials::wave_speed(material), lowest = g * length * length / (speed * speed);
+  bar.advance(0.9 * length / speed, {});
+  EXPECT_NEAR(bar.read(end).displacement[2], -0.5 * g * bar.time() * bar.time(), 1e-4 * lowest);
+  bar.advance(2.0 * length / speed, {});
+  EXPECT_NEAR(bar.read(end).displacement[2], -lowest, 2e-3 * lowest);
+  const Energies energies = bar.energies();
+  EXPECT_GT(energies.gravity, 0.0);
+  EXPECT_LT(std::abs(energies.balance()), 2e-3 * energies.gravity);
+}
+
 Settings thin_ring(const materials::Solid& material, double radius, double thickness) {
   Settings settings;
   settings.mesh = TubeMesh{2, Vec3::Zero(), radius - 0.5 * thickness, radius + 0.5 * thickness, 0.0, thickness, 2, 96, 1};

@@ -137,6 +137,35 @@ TEST(Geometry, Solids) {
          "13:1: solids.disc.wet is empty, but coupling.solids = \"surface\" couples by wet faces");
 }
 
+const std::string pool = R"(end_time = 1e-3
+dimension = 2
+gravity = [0, -9.81]
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0], high = [1, 1]}
+material = "water-tait"
+pressure = 1e5
+level = [0, 1]
+)";
+
+TEST(Geometry, Gravity) {
+  EXPECT_EQ(mistakes(pool), "");
+  const undex::scene::Scene scene = read_text(pool);
+  EXPECT_EQ(scene.fluid.gravity, undex::Vec3(0, -9.81, 0));
+  ASSERT_TRUE(scene.fluid.bodies[0].level);
+  EXPECT_EQ(*scene.fluid.bodies[0].level, undex::Vec3(0, 1, 0));
+  expect(with(pool, "gravity = [0, -9.81]\n", ""), "10:9: bodies.water.level means nothing without gravity");
+  expect(with(pool, "pressure = 1e5\n", ""), "10:9: bodies.water.level is where the body has its pressure: give pressure");
+  expect(with(pool, "level = [0, 1]", "level = [0, -20]"), "11:9: bodies.water.level: with 1e+05 Pa there the body has no hydrostatic equilibrium");
+  // A symmetry plane may be the bottom, but not cut the water.
+  const std::string planes = "\n[symmetry]\nplanes = [\"y\"]\n";
+  EXPECT_EQ(mistakes(pool + planes), "");
+  expect(with(pool, "low = [0, 0]", "low = [0, -1]") + planes, "3:11: gravity is not its own mirror image across the symmetry plane y = 0");
+  expect(pool + "[start]\nkind = \"plane_wave\"\naxis = \"y\"\nfront = 0.5\npeak = 1e6\ndecay = 1e-5\n", "3:11: gravity needs start.kind = \"plain\"");
+}
+
 TEST(Geometry, NamesAndFit) {
   expect(with(two_gases, "name = \"right\"", "name = \"left\""), "14:8: bodies: the name 'left' is used twice; choose another one");
   expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nfit = \"watr\""),

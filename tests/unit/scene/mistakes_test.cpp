@@ -46,7 +46,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
        "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, pressure, "
-       "density, energy, burn, variable_h\n"},
+       "level, density, energy, burn, variable_h\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
        "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high\n"},
       {"unknown key of a material", with(two_gases, "gamma = 1.4}\nenergy", "gama = 1.4}\nenergy"),

@@ -45,6 +45,19 @@ kind = "profile"
 solution = "noh"
 )";
 
+const std::string pool = R"(dimension = 2
+end_time = 1
+gravity = [1, -9.81]
+[resolution]
+spacing = 0.1
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0], high = [1, 1]}
+material = "water-tait"
+pressure = 1e6
+level = [0, 1.5]
+)";
+
 /// Scenes that between them use every kind of table, with no value at its default.
 const std::vector<std::string> rich{R"(title = "all \"sorts\" of \\ things\t"
 name = "rich"
@@ -266,7 +279,7 @@ point = [0.005, -0.002, 0.005]
 kind = "taylor_plate"
 probe = "plate"
 )",
-                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n", profile, imploding};
+                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n", profile, imploding, pool};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
   for (const std::string& text : rich) {
@@ -296,6 +309,13 @@ TEST(RoundTrip, KeepsLocalSteps) {
   const Scratch scratch;
   const std::string text = with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nlocal_steps = true");
   EXPECT_TRUE(read(scratch.write(to_toml(read(scratch.write(text))), "resolved.toml")).fluid.numerics.local_steps);
+}
+
+TEST(RoundTrip, KeepsGravityAndLevels) {
+  const Scratch scratch;
+  const Scene scene = read(scratch.write(to_toml(read(scratch.write(pool))), "resolved.toml"));
+  EXPECT_EQ(scene.fluid.gravity, Vec3(1, -9.81, 0));
+  EXPECT_EQ(scene.fluid.bodies[0].level, Vec3(0, 1.5, 0));
 }
 
 TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
