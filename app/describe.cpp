@@ -12,6 +12,7 @@
 #include "app/plane_wave_start.hpp"
 #include "app/spherical_start.hpp"
 #include "core/shapes.hpp"
+#include "sph_fluid/lattice.hpp"
 
 namespace undex::app {
 namespace {
@@ -87,6 +88,7 @@ std::string describe(const scene::Scene& given) {
   if (const sph::Fluid* fluid = simulation.fluid()) {
     text += format("fluid, spacing %.6g m\n", scene.fluid.lattice.spacing) + bodies(scene, *fluid);
     memory += double(fluid->memory_bytes());
+    for (const std::string& warning : sph::lattice_warnings(scene.fluid)) text += "warning: " + warning + "\n";
   }
   if (const fem::Structure* structure = simulation.structure()) {
     text += format("structure %s of %s\n  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", scene.structure->name.c_str(),

@@ -20,6 +20,7 @@
 #include "output/files.hpp"
 #include "output/history.hpp"
 #include "output/run_record.hpp"
+#include "sph_fluid/lattice.hpp"
 
 namespace undex::app {
 namespace {
@@ -194,6 +195,10 @@ int run(const scene::Scene& given, const RunOptions& options) {
   }
   Simulation simulation(scene);
 
+  const std::vector<std::string> warnings = sph::lattice_warnings(scene.fluid);
+  if (options.verbosity >= 0)
+    for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+
   // Now the scene is known to be sound: nothing was written for one that is not.
   output::make_folder(folder);
   output::write_text_atomically(folder / "scene.toml", options.scene_text);
@@ -212,6 +217,7 @@ int run(const scene::Scene& given, const RunOptions& options) {
     output::RunRecord record = record_of(scene, options, simulation, since);
     record.status = status;
     record.message = message;
+    record.warnings = warnings;
     try {
       record.metrics = compare(given, simulation, probes, folder);
     } catch (const std::invalid_argument&) {

@@ -59,6 +59,7 @@ std::string to_json(const RunRecord& record) {
   json["scene"] = record.scene;
   json["status"] = record.status;
   if (!record.message.empty()) json["message"] = record.message;
+  if (!record.warnings.empty()) json["warnings"] = record.warnings;
   if (!record.program.empty()) json["program"] = record.program;
   json["time_s"] = record.time_s;
   json["steps"] = record.steps;
@@ -101,6 +102,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
   record.scene = text(json, "scene");
   record.status = text(json, "status");
   record.message = text(json, "message");
+  if (const auto found = json.find("warnings"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_string()) record.warnings.push_back(each.get<std::string>());
   record.program = text(json, "program");
   get(json, "time_s", record.time_s);
   get(json, "steps", record.steps);

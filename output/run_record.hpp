@@ -36,6 +36,7 @@ struct RunRecord {
   std::optional<double> angular_momentum_error;                  ///< relative; closed scenes of solids in particles only
   std::optional<double> interface_energy_error;                  ///< coupled runs only
   std::optional<double> interface_impulse_error;                 ///< the same
+  std::vector<std::string> warnings;          ///< what of the scene computes badly, one sentence each; left out when empty
   std::string program;                        ///< version text; left out when empty
   std::vector<std::pair<std::string, std::int64_t>> clamps;      ///< how often each floor or bound acted
   NamedNumbers passes;                        ///< seconds per named pass

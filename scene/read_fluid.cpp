@@ -38,6 +38,12 @@ void read_resolution(const TableReader& top, Draft& draft) {
                                                                 {"rings", sph::LatticeType::rings}});
   table.read("fit", lattice.fit);
   table.read("origin", lattice.origin);
+  if (const Node* turn = table.find("rotation")) {
+    if (top.dimension() == 3) table.read("rotation", lattice.rotation);
+    else if (turn->kind == Node::Kind::array)
+      table.complain("rotation", "resolution.rotation must be a number in degrees in two dimensions: only z is left to turn about");
+    else table.read("rotation", lattice.rotation[2]);
+  }
   table.read("jitter", lattice.jitter);
 }
 

@@ -32,7 +32,7 @@ std::vector<Section> make_schema() {
         word("materials"), word("bodies"), word("walls"), word("structure"), word("solids"), word("solid_scheme"), word("planes"),
         word("coupling"), word("probes"), word("output"), word("comparison")}},
       {"resolution",
-       {length("spacing"), word("lattice"), word("fit"), position("origin"), between("jitter", 0, 0.5)}},
+       {length("spacing"), word("lattice"), word("fit"), position("origin"), any("rotation", "deg"), between("jitter", 0, 0.5)}},
       {"symmetry", {word("planes")}},
       {"scheme",
        {word("name"), word("kernel"), word("precision"), between("eta", 0.8, 3), between("alpha", 0, 100), between("beta", 0, 1000),

@@ -327,6 +327,8 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.put("lattice", fluid.lattice.type == sph::LatticeType::rings ? "rings" : "cartesian");
   writer.put("fit", fluid.lattice.fit);
   writer.put("origin", fluid.lattice.origin);
+  if (writer.dimension() == 3) writer.put("rotation", fluid.lattice.rotation);
+  if (writer.dimension() == 2) writer.put("rotation", fluid.lattice.rotation[2]);
   writer.put("jitter", fluid.lattice.jitter);
   writer.table("[symmetry]", "symmetry");
   writer.axes("planes", fluid.symmetry.axis);

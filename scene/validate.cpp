@@ -146,6 +146,9 @@ class Validator {
     const Node* node = draft_.root.find("resolution");
     if (!node) return;
     const bool rings = lattice.type == sph::LatticeType::rings;
+    if (!lattice.rotation.isZero() && (rings || !lattice.fit.empty() || dimension_ == 1) && draft_.dimension_good)
+      complain(*node, "rotation", std::string("resolution.rotation turns a Cartesian lattice that is not fitted, in 2D and 3D; leave out ") +
+                                      (dimension_ == 1 ? "rotation" : rings ? "lattice = \"rings\"" : "fit") + " or rotation");
     if (rings && dimension_ == 1 && draft_.dimension_good)
       complain(*node, "lattice", "resolution.lattice = \"rings\" needs dimension = 2 or 3; take \"cartesian\"");
     if (lattice.fit.empty()) {

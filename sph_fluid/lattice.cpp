@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
@@ -18,6 +19,7 @@ struct Grid {
   int dimension = 3;
   Vec3 origin = Vec3::Zero();   // a cell's corner
   Vec3 step = Vec3::Ones();     // cell edges; along the axis only, for rings
+  Mat3 turn = Mat3::Identity(); // of Cartesian cells, about the origin
   bool rings = false;
   int axis = 2;
   double ring_start = 0, ring_width = 0;
@@ -34,9 +36,9 @@ double noise(std::uint64_t seed, std::uint64_t stream) {
   return double((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
 }
 
-/// Cuts low..high into whole steps of about dx; symmetric bounds get a cell face at zero, as a symmetry plane needs.
-void fit_axis(double low, double high, double dx, double& origin, double& step) {
-  if (std::abs(low + high) <= 1e-12 * (high - low)) {
+/// Cuts low..high into whole steps of about dx. Symmetric bounds get a cell face at zero, and so does a symmetry plane that cuts them.
+void fit_axis(double low, double high, double dx, bool mirrored, double& origin, double& step) {
+  if (std::abs(low + high) <= 1e-12 * (high - low) || (mirrored && low < 0.0 && high > 0.0)) {
     origin = 0.0;
     step = high / std::max(1.0, std::round(high / dx));
   } else {
@@ -66,16 +68,19 @@ Grid cartesian(const Vec3& origin, double dx, int dimension) {
   return grid;
 }
 
-void fit_grid(Grid& grid, const Primitive& shape, double dx) {
+void fit_grid(Grid& grid, const Primitive& shape, double dx, const Symmetry& symmetry) {
   const Bounds box = bounds(shape, grid.dimension);
   for (int a = 0; a < grid.dimension; ++a)
-    if (box.low[a] > -1e299 && box.high[a] < 1e299) fit_axis(box.low[a], box.high[a], dx, grid.origin[a], grid.step[a]);
+    if (box.low[a] > -1e299 && box.high[a] < 1e299)
+      fit_axis(box.low[a], box.high[a], dx, symmetry.axis[a], grid.origin[a], grid.step[a]);
 }
 
 Grid scene_grid(const Settings& settings) {
   const Lattice& lattice = settings.lattice;
   Grid grid = cartesian(lattice.origin, lattice.spacing, settings.dimension);
-  if (!lattice.fit.empty()) fit_grid(grid, shape_to_fit(settings), lattice.spacing);
+  if (const double angle = lattice.rotation.norm(); angle > 0.0)
+    grid.turn = Eigen::AngleAxisd(angle * std::numbers::pi / 180.0, lattice.rotation / angle).toRotationMatrix();
+  if (!lattice.fit.empty()) fit_grid(grid, shape_to_fit(settings), lattice.spacing, settings.symmetry);
   if (lattice.type == LatticeType::rings) {
     double radius = 0;
     const Primitive& shape = lattice.fit.empty() ? settings.bodies.at(0).shape.base : shape_to_fit(settings);
@@ -101,10 +106,18 @@ Grid scene_grid(const Settings& settings) {
   return grid;
 }
 
+/// That of the scene, or a body's own.
+Grid body_grid(const Settings& settings, const Body& body) {
+  if (!body.spacing) return scene_grid(settings);
+  Grid grid = cartesian(settings.lattice.origin, *body.spacing, settings.dimension);
+  fit_grid(grid, body.shape.base, *body.spacing, settings.symmetry);
+  return grid;
+}
+
 /// A solid's own lattice. The rings of a tube all have as many particles: its wall is a grid, bent.
 Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
   Grid grid = cartesian(settings.lattice.origin, dx, settings.dimension);
-  fit_grid(grid, body.shape.base, dx);
+  fit_grid(grid, body.shape.base, dx, settings.symmetry);
   if (body.lattice != LatticeType::rings) return grid;
   const auto about = [&](int axis, const Vec3& center, double inner, double outer) {
     if (settings.dimension < 2 || (settings.dimension == 2 && axis != 2))
@@ -125,6 +138,19 @@ Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
   else
     throw std::invalid_argument("solid '" + body.name + "': lattice = \"rings\" needs a cylinder or a tube; use \"cartesian\"");
   return grid;
+}
+
+/// A box, in the axes of a turned lattice, that holds the given one.
+Bounds turned_back(const Grid& grid, const Bounds& box) {
+  if (grid.turn.isIdentity(0.0)) return box;
+  Vec3 middle = Vec3::Zero(), half = Vec3::Zero();
+  for (int a = 0; a < grid.dimension; ++a) {
+    middle[a] = 0.5 * (box.low[a] + box.high[a]) - grid.origin[a];
+    half[a] = 0.5 * (box.high[a] - box.low[a]);
+  }
+  middle = grid.origin + grid.turn.transpose() * middle;
+  half = grid.turn.transpose().cwiseAbs() * half;
+  return {middle - half, middle + half};
 }
 
 /// Visits every lattice point in `box` (or just outside) on the kept side of the symmetry planes.
@@ -148,6 +174,7 @@ void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& v
     }
     visit(x, volume);
   };
+  box = turned_back(grid, box);
   long first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
   for (int a = 0; a < grid.dimension; ++a) {
     first[a] = long(std::floor((box.low[a] - grid.origin[a]) / grid.step[a]));
@@ -155,11 +182,15 @@ void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& v
   }
   const auto along = [&](int a, long k) { return a < grid.dimension ? grid.origin[a] + (k + 0.5) * grid.step[a] : 0.0; };
   if (!grid.rings) {
+    const bool turned = !grid.turn.isIdentity(0.0);
     double volume = 1.0;
     for (int a = 0; a < grid.dimension; ++a) volume *= grid.step[a];
     for (long k = first[2]; k <= last[2]; ++k)
       for (long j = first[1]; j <= last[1]; ++j)
-        for (long i = first[0]; i <= last[0]; ++i) offer({along(0, i), along(1, j), along(2, k)}, volume, grid.step);
+        for (long i = first[0]; i <= last[0]; ++i) {
+          const Vec3 x(along(0, i), along(1, j), along(2, k));
+          offer(turned ? Vec3(grid.origin + grid.turn * (x - grid.origin)) : x, volume, grid.step);
+        }
     return;
   }
   const int u = (grid.axis + 1) % 3, v = (grid.axis + 2) % 3;
@@ -290,17 +321,33 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
 
 std::vector<BodyParticles> fill_bodies(const Settings& settings) {
   std::vector<BodyParticles> result;
-  for (const Body& body : settings.bodies) {
-    Grid grid;
-    if (body.spacing) {
-      grid = cartesian(settings.lattice.origin, *body.spacing, settings.dimension);
-      fit_grid(grid, body.shape.base, *body.spacing);
-    } else {
-      grid = scene_grid(settings);
-    }
-    result.push_back(fill(grid, settings, body.shape, "body '" + body.name + "'"));
-  }
+  for (const Body& body : settings.bodies)
+    result.push_back(fill(body_grid(settings, body), settings, body.shape, "body '" + body.name + "'"));
   return result;
+}
+
+std::vector<std::string> lattice_warnings(const Settings& settings) {
+  std::vector<std::string> warnings;
+  for (const Body& body : settings.bodies) {
+    const Grid grid = body_grid(settings, body);
+    const Bounds box = bounds(body.shape, settings.dimension);
+    for (int a = 0; a < settings.dimension; ++a) {
+      if (!settings.symmetry.axis[a] || box.low[a] > 2.0 * grid.step[a]) continue;
+      // Rings meet a plane as their images do where it holds their axis or is a face of their layers.
+      const bool across = grid.rings && a != grid.axis;
+      const double unit = across ? grid.ring_width : grid.step[a], faces = grid.origin[a] / unit;
+      const double off = across ? std::abs(faces) : std::abs(faces - std::round(faces));
+      const bool turned = (grid.turn.row(a).cwiseAbs().maxCoeff() < 1.0 - 1e-9);
+      if (off < 1e-6 && !turned) continue;
+      char how[100] = "is turned against";
+      if (!turned) std::snprintf(how, sizeof how, "has no cell face on (the nearest is %.2g spacings off)", off);
+      warnings.push_back("the lattice of body '" + body.name + "' " + how + " the symmetry plane " + "xyz"[a] +
+                         " = 0: particles there are not half a spacing from it, and their pressure is off; " +
+                         (turned ? "leave out resolution.rotation or the plane"
+                                 : "choose resolution.origin a multiple of the spacing, or resolution.fit something that the plane halves"));
+    }
+  }
+  return warnings;
 }
 
 std::vector<BodyParticles> fill_solids(const Settings& settings) {

@@ -1,6 +1,7 @@
 // The start: shapes filled with particles, and rigid walls lined with dummy particles.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sph_fluid/fluid.hpp"
@@ -16,6 +17,9 @@ struct BodyParticles {
 /// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.
 std::vector<BodyParticles> fill_bodies(const Settings& settings);
 std::vector<BodyParticles> fill_solids(const Settings& settings);
+
+/// Symmetry planes that lie between the lattice's cell faces, and what to do about it; one sentence each.
+std::vector<std::string> lattice_warnings(const Settings& settings);
 
 /// Dummy particles of the rigid walls: the lattice continued beyond every face that is not open, as deep as the kernel
 /// reaches (at least three layers). One MovingWall per slip condition; their velocity is zero.

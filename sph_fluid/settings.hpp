@@ -77,6 +77,7 @@ struct Lattice {
   /// rings) is cut into a whole number of spacings. Empty: cell corners at multiples of dx from `origin`.
   std::string fit;
   Vec3 origin = Vec3::Zero();             ///< [m]
+  Vec3 rotation = Vec3::Zero();           ///< of a Cartesian lattice about `origin`: axis times angle [deg]; not with `fit`
   /// Jitter of the start as a share of dx, from a fixed seed: 0 is a perfect lattice.
   double jitter = 0;
 };

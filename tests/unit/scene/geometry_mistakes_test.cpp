@@ -166,6 +166,13 @@ TEST(Geometry, Gravity) {
   expect(pool + "[start]\nkind = \"plane_wave\"\naxis = \"y\"\nfront = 0.5\npeak = 1e6\ndecay = 1e-5\n", "3:11: gravity needs start.kind = \"plain\"");
 }
 
+TEST(Geometry, Rotation) {
+  EXPECT_EQ(mistakes(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = 17")), "");
+  expect(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = [1, 2, 3]"), "6:12: resolution.rotation must be a number in degrees");
+  expect(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = 17\nfit = \"water\""),
+         "6:12: resolution.rotation turns a Cartesian lattice that is not fitted, in 2D and 3D; leave out fit or rotation");
+}
+
 TEST(Geometry, NamesAndFit) {
   expect(with(two_gases, "name = \"right\"", "name = \"left\""), "14:8: bodies: the name 'left' is used twice; choose another one");
   expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nfit = \"watr\""),

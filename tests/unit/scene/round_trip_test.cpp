@@ -50,6 +50,7 @@ end_time = 1
 gravity = [1, -9.81]
 [resolution]
 spacing = 0.1
+rotation = 17
 [[bodies]]
 name = "water"
 shape = {type = "box", low = [0, 0], high = [1, 1]}
@@ -311,10 +312,11 @@ TEST(RoundTrip, KeepsLocalSteps) {
   EXPECT_TRUE(read(scratch.write(to_toml(read(scratch.write(text))), "resolved.toml")).fluid.numerics.local_steps);
 }
 
-TEST(RoundTrip, KeepsGravityAndLevels) {
+TEST(RoundTrip, KeepsGravityLevelsAndRotation) {
   const Scratch scratch;
   const Scene scene = read(scratch.write(to_toml(read(scratch.write(pool))), "resolved.toml"));
   EXPECT_EQ(scene.fluid.gravity, Vec3(1, -9.81, 0));
+  EXPECT_EQ(scene.fluid.lattice.rotation, Vec3(0, 0, 17));
   EXPECT_EQ(scene.fluid.bodies[0].level, Vec3(0, 1.5, 0));
 }
 

@@ -1,6 +1,7 @@
 // The start: how bodies are filled with particles and walls lined with dummies.
 #include "sph_fluid/lattice.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,6 +132,101 @@ Settings rings(double spacing) {
   settings.lattice.type = LatticeType::rings;
   settings.lattice.fit = "water";
   return settings;
+}
+
+/// A body that the plane does not halve: its lattice is fitted to the plane and to its far end.
+TEST(Lattice, FitHasACellFaceOnASymmetryPlane) {
+  Settings settings = scene(2, 0.1, box(Vec3(-0.23, 0, 0), Vec3(0.97, 0.5, 0)));
+  settings.lattice.fit = "water";
+  settings.symmetry.axis = {true, true, false};
+  double nearest = 1, farthest = 0;
+  const BodyParticles filled = fill_bodies(settings).at(0);
+  for (const Vec3& x : filled.position) {
+    nearest = std::min(nearest, x[0]);
+    farthest = std::max(farthest, x[0]);
+  }
+  EXPECT_NEAR(nearest, 0.0485, 1e-12);
+  EXPECT_NEAR(farthest, 0.97 - 0.0485, 1e-12);
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+}
+
+TEST(Lattice, WarnsOfAPlaneBetweenItsCellFaces) {
+  Settings settings = scene(2, 0.1, box(Vec3(0, 0, 0), Vec3(1, 0.5, 0)));
+  settings.symmetry.axis = {true, false, false};
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+  settings.lattice.origin = Vec3(0.3, 0.05, 0);
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+  settings.lattice.origin = Vec3(0.33, 0, 0);
+  ASSERT_EQ(lattice_warnings(settings).size(), 1u);
+  EXPECT_NE(lattice_warnings(settings)[0].find("0.3 spacings off) the symmetry plane x = 0"), std::string::npos) << lattice_warnings(settings)[0];
+  settings.lattice.origin = Vec3::Zero();
+  settings.lattice.rotation = Vec3(0, 0, 90);
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+  settings.lattice.rotation = Vec3(0, 0, 17);
+  ASSERT_EQ(lattice_warnings(settings).size(), 1u);
+  EXPECT_NE(lattice_warnings(settings)[0].find("is turned against the symmetry plane x"), std::string::npos);
+  settings.bodies[0].shape = box(Vec3(0.3, 0, 0), Vec3(1, 0.5, 0));  // does not come near
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+}
+
+/// A ball does not see how its lattice lies: its particles, and all that becomes of them, are those of the lattice as it is, turned.
+TEST(Lattice, TurnedInABall) {
+  for (const int dimension : {2, 3}) {
+    Settings straight = scene(dimension, 0.1, Shape{Sphere{Vec3::Zero(), 0.5}, {}});
+    straight.bodies[0].pressure = 5e7;
+    straight.numerics.threads = 1;
+    Settings turned = straight;
+    turned.lattice.rotation = dimension == 2 ? Vec3(0, 0, 17) : Vec3(10, -20, 30);
+    const double angle = turned.lattice.rotation.norm();
+    const Mat3 R = Eigen::AngleAxisd(angle * std::numbers::pi / 180, turned.lattice.rotation / angle).toRotationMatrix();
+    Fluid a(straight), b(turned);
+    ASSERT_EQ(a.particle_count(), b.particle_count());
+    for (int k = 0; k < 20; ++k) {
+      const double dt = a.step_limit().step;
+      a.step(dt);
+      b.step(dt);
+    }
+    const std::vector<Vec3> x = by_id(a, "position"), y = by_id(b, "position");
+    std::vector<Vec3> left;
+    for (const Vec3& each : x) left.push_back(R * each);
+    const auto before = [](const Vec3& p, const Vec3& q) {
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(p[c] - q[c]) > 1e-6) return p[c] < q[c];
+      return false;
+    };
+    std::vector<Vec3> right = y;
+    std::sort(left.begin(), left.end(), before);
+    std::sort(right.begin(), right.end(), before);
+    double moved = 0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      EXPECT_LT((left[i] - right[i]).norm(), 1e-8 * 0.1) << i;  // the predictor's earlier rates are in single precision
+      moved = std::max(moved, left[i].norm() - 0.5);
+    }
+    EXPECT_GT(moved, -0.05);  // its free surface has moved
+  }
+}
+
+/// Where the body is not round the lattice cuts it elsewhere; masses are exact all the same, and bodies share the lattice.
+TEST(Lattice, TurnedMassIsExactAndNothingIsTwice) {
+  const Sphere ball{Vec3(0.03, 0, 0), 0.27};
+  Settings settings = scene(3, 0.05, Shape{Box{Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)}, {ball}});
+  settings.bodies.push_back(body("bubble", Shape{ball, {}}, "bubble-gas"));
+  settings.lattice.rotation = Vec3(5, 12, -31);
+  settings.lattice.origin = Vec3(0.01, 0.02, 0.03);
+  const std::vector<BodyParticles> filled = fill_bodies(settings);
+  const double of_ball = 4.0 / 3.0 * std::numbers::pi * std::pow(0.27, 3);
+  EXPECT_NEAR(sum(filled[0].volume), 1.0 - of_ball, 2e-5);
+  EXPECT_NEAR(sum(filled[1].volume), of_ball, 2e-5 * of_ball);
+  std::vector<Vec3> all = filled[0].position;
+  all.insert(all.end(), filled[1].position.begin(), filled[1].position.end());
+  EXPECT_NEAR(double(all.size()), 8000, 200);
+  for (std::size_t i = 0; i < all.size(); i += 97) {  // everyone's nearest neighbour is a spacing away
+    double nearest = 1;
+    for (std::size_t j = 0; j < all.size(); ++j)
+      if (j != i) nearest = std::min(nearest, (all[i] - all[j]).norm());
+    EXPECT_NEAR(nearest, 0.05, 1e-12);
+    EXPECT_LE(all[i].cwiseAbs().maxCoeff(), 0.5);
+  }
 }
 
 TEST(Lattice, RingsFitTheRadius) {
