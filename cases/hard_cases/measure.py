@@ -3,7 +3,7 @@
 
     measure.py PROGRAM OUT [SCENE ...]      runs the scenes (default: all) with the default scheme and with the paper's into
                                             OUT/<scene>_r and OUT/<scene>_m, unless they are there, and prints a line for each
-                                            criterion; OUT "-" is a temporary folder
+                                            criterion; OUT "-" is a temporary folder; SCENE:default or SCENE:paper is one scheme alone
 Exit code 1 where a criterion is missed. Needs NumPy and h5py.
 """
 import csv
@@ -216,8 +216,10 @@ def main():
 def measure(program, out, scenes):
     """1 where a criterion is missed, else 0."""
     failed = False
-    for scene in scenes or CASES:
+    for scene, _, scheme in (name.partition(":") for name in scenes or CASES):
         for suffix, changes in (("r", []), ("m", PAPER)):
+            if scheme == ("paper" if suffix == "r" else "default"):
+                continue
             def get(name):
                 folder = out / f"{name}_{suffix}"
                 if not (folder / "summary.json").exists():
