@@ -14,7 +14,7 @@
 namespace undex::coupling {
 namespace {
 
-constexpr double added_mass_share = 0.35;  // of 1/omega: docs/equations.md, section 8
+constexpr double added_mass_share = 0.3;  // of 1/omega: docs/equations.md, section 8
 
 /// Area [m^2] of each node of the surface, a quarter of each of its faces.
 std::vector<double> nodal_areas(const WetSurface& surface) {

@@ -79,13 +79,15 @@ bool reflect(const Cylinder& wall, const Vec3& x, double depth, int dimension, R
 /// Calls visit for all images between and behind the faces of a pair.
 template <class Visit>
 void reflect(const SlipFaces::Pair& faces, const Vec3& x, double depth, int dimension, Visit visit) {
+  const double at = x[faces.axis];
+  if (at - faces.low >= depth && faces.high - at >= depth) return;  // most
+  if (at < faces.low || at > faces.high) return;
   for (int a = 0; a < dimension; ++a)
     if (a != faces.axis && (x[a] < faces.window.low[a] - depth || x[a] > faces.window.high[a] + depth)) return;
-  const double at = x[faces.axis];
-  if (at < faces.low || at > faces.high) return;
   const bool both = faces.low > -1e299 && faces.high < 1e299;
   const auto offer = [&](double place, bool odd) {
     if (place <= faces.low - depth || place >= faces.high + depth) return false;
+    if (faces.symmetric && place < faces.low) return true;
     Reflection image{x, Vec3::Zero(), 1.0};
     image.place[faces.axis] = place;
     if (odd) image.normal[faces.axis] = 1.0;
@@ -189,9 +191,10 @@ SlipFaces slip_faces(const Settings& settings) {
     const Bounds window = bounds(wall.container, settings.dimension);
     const auto add = [&](int axis, const std::string& low, const std::string& high) {
       // A symmetry plane stands in for what it cuts off.
-      const bool with_low = slips(low) && !(settings.symmetry.axis[axis] && window.low[axis] <= 0.0), with_high = slips(high);
+      const bool cut = settings.symmetry.axis[axis] && window.low[axis] <= 0.0;
+      const bool with_low = slips(low) && !cut, with_high = slips(high);
       if (with_low || with_high)
-        result.plane.push_back({axis, with_low ? window.low[axis] : -1e300, with_high ? window.high[axis] : 1e300, window});
+        result.plane.push_back({axis, cut ? 0.0 : with_low ? window.low[axis] : -1e300, with_high ? window.high[axis] : 1e300, cut, window});
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
       if (slips("side")) result.round.push_back(*cylinder);
@@ -410,11 +413,12 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
     }
     for (const SlipFaces::Pair& pair : faces.plane) {
       Vec3 x = place();
+      if ((x[pair.axis] >= pair.low || pair.symmetric) && x[pair.axis] <= pair.high) continue;  // nearly all
       bool beside = false;
       for (int a = 0; a < settings.dimension; ++a)
         beside = beside || (a != pair.axis && (x[a] < pair.window.low[a] - far || x[a] > pair.window.high[a] + far));
       const double at = x[pair.axis], face = at < pair.low ? pair.low : pair.high;
-      if (beside || (at >= pair.low && at <= pair.high) || std::abs(at - face) > far) continue;
+      if (beside || std::abs(at - face) > far) continue;
       Vec3 normal = Vec3::Zero(), foot = x;
       normal[pair.axis] = 1.0;
       foot[pair.axis] = face;

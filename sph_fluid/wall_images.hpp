@@ -25,6 +25,7 @@ struct SlipFaces {
   struct Pair {
     int axis;
     double low, high;            ///< [m]; -+1e300 where there is none
+    bool symmetric;              ///< is `low` a symmetry plane, whose own images are not stored?
     Bounds window;               ///< of the container
   };
   std::vector<Cylinder> round;   ///< their sides
