@@ -413,8 +413,23 @@ void Fluid::Implementation::find_images() {
   if (!meshed && slip_walls.round.empty() && slip_walls.plane.empty()) return;
   const auto timer = timers.measure("walls");
   std::vector<WallImages::Range> ranges;
-  for (const Group& group : groups) ranges.push_back({group.begin, group.end, &group.cells, 2.0 * group.spacing});
-  images.build(settings, slip_walls, moving, particles, ranges, reach);
+  std::vector<double> clear;
+  for (const Group& group : groups) {
+    const CellGrid grid = group.cells.view();
+    Bounds box;
+    box.include(Vec3(grid.bound_low[0], grid.bound_low[1], grid.bound_low[2]));
+    box.include(Vec3(grid.bound_high[0], grid.bound_high[1], grid.bound_high[2]));
+    clear.push_back(clearance(slip_walls, moving, box));
+  }
+  for (const Group& group : groups) {
+    // The image of a particle at s meets particles at s' if s + s' is less than their mean reach.
+    double depth = 0.0;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (groups[g].begin < groups[g].end)
+        depth = std::max(depth, 0.5 * loops.support * (group.h_max + groups[g].h_max) - clear[g]);
+    ranges.push_back({group.begin, group.end, &group.cells, 2.0 * group.spacing, depth});
+  }
+  images.build(settings, slip_walls, moving, particles, ranges);
   images.mirror_rows(particles);
   if (images.size() == 0) return;
   for (std::size_t g = 0; g < groups.size(); ++g) {

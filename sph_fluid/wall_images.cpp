@@ -209,8 +209,29 @@ SlipFaces slip_faces(const Settings& settings) {
   return result;
 }
 
+double clearance(const SlipFaces& faces, const std::vector<MovingWall>& moving, const Bounds& box) {
+  double least = 1e300;
+  for (const SlipFaces::Pair& pair : faces.plane)
+    least = std::min({least, pair.symmetric ? 1e300 : box.low[pair.axis] - pair.low, pair.high - box.high[pair.axis]});
+  for (const Cylinder& wall : faces.round) {
+    Vec3 away = (box.low - wall.center).cwiseAbs().cwiseMax((box.high - wall.center).cwiseAbs());
+    away[wall.axis] = 0.0;
+    least = std::min(least, wall.radius - away.norm());
+  }
+  for (const MovingWall& wall : moving) {
+    double longest = 0.0;
+    for (const auto& face : wall.mesh)
+      longest = std::max({longest, (wall.position[face[0]] - wall.position[face[2]]).norm(),
+                          (wall.position[face[1]] - wall.position[face[3]]).norm()});
+    if (wall.mesh.empty()) continue;
+    for (const Vec3& x : wall.position)
+      least = std::min(least, (box.low - x).cwiseMax(x - box.high).cwiseMax(0.0).norm() - 0.5 * longest);
+  }
+  return std::max(least, 0.0);
+}
+
 void WallImages::find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
-                           std::span<const Range> ranges, double depth) {
+                           std::span<const Range> ranges) {
   normals_.resize(moving.size());
   feet_.clear();
   const double beyond = 0.5 * settings.lattice.spacing;
@@ -226,20 +247,20 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
 #pragma omp for schedule(static)
       for (int f = 0; f < int(wall.mesh.size()); ++f) {
         const Patch patch(wall, normals_[w], f);
-        Bounds box;
-        for (int c = 0; c < 4; ++c) {
-          box.include(patch.x[c] + beyond * patch.n[c]);
-          box.include(patch.x[c] - depth * patch.n[c]);
-        }
         const Patch::Frame middle = patch.frame(0.5, 0.5);
         const double uu = middle.foot_u.squaredNorm(), uv = middle.foot_u.dot(middle.foot_v), vv = middle.foot_v.squaredNorm();
         const double determinant = uu * vv - uv * uv;
-        // What normals that lean apart make of the face's sides at the end of its reach, beside its own curvature.
         double lean = 0.0;
         for (const Vec3& n : patch.n) lean = std::max(lean, (n - middle.normal).norm());
-        const double margin = 0.1 + lean * depth / std::sqrt(std::min(uu, vv));
         for (const Range& range : ranges) {
-          if (range.first == range.last) continue;
+          if (range.first == range.last || range.depth <= 0.0) continue;
+          Bounds box;
+          for (int c = 0; c < 4; ++c) {
+            box.include(patch.x[c] + beyond * patch.n[c]);
+            box.include(patch.x[c] - range.depth * patch.n[c]);
+          }
+          // What normals that lean apart make of the face's sides at the end of its reach, beside its own curvature.
+          const double margin = 0.1 + lean * range.depth / std::sqrt(std::min(uu, vv));
           const CellGrid grid = range.cells->view();
           int first[3], last[3];
           bool apart = false;
@@ -258,10 +279,10 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
                 Foot foot{i, int(w), f, 0.5 + (vv * bu - uv * bv) / determinant, 0.5 + (uu * bv - uv * bu) / determinant,
                           -away.dot(middle.normal)};
                 if (std::abs(foot.u - 0.5) > 0.5 + margin || std::abs(foot.v - 0.5) > 0.5 + margin) continue;
-                if (!patch.project(x, depth, foot)) continue;
+                if (!patch.project(x, range.depth, foot)) continue;
                 constexpr double edge = 1e-7;
                 if (foot.u < -edge || foot.u > 1 + edge || foot.v < -edge || foot.v > 1 + edge) continue;
-                if (foot.distance <= -beyond || foot.distance >= depth) continue;
+                if (foot.distance <= -beyond || foot.distance >= range.depth) continue;
                 mine.push_back(foot);
               }
             }
@@ -282,8 +303,8 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
 }
 
 void WallImages::build(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving,
-                       const Particles& particles, std::span<const Range> ranges, double depth) {
-  find_feet(settings, moving, particles, ranges, depth);
+                       const Particles& particles, std::span<const Range> ranges) {
+  find_feet(settings, moving, particles, ranges);
   images_.clear();
   begin_.assign(1, 0);
   cells_.resize(ranges.size());
@@ -291,7 +312,8 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
   const bool any = !feet_.empty() || !faces.round.empty() || !faces.plane.empty();
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     const std::uint32_t start = std::uint32_t(images_.size());
-    if (any) {
+    const double depth = ranges[r].depth;
+    if (any && depth > 0.0) {
       std::vector<std::vector<Image>> found(omp_get_max_threads());
 #pragma omp parallel
       {

@@ -33,6 +33,9 @@ struct SlipFaces {
 };
 SlipFaces slip_faces(const Settings& settings);
 
+/// A lower bound of the distance [m] between particles within a box and any slip wall, rigid or moving.
+double clearance(const SlipFaces& faces, const std::vector<MovingWall>& moving, const Bounds& box);
+
 /// Does the scheme mirror the fluid in slip walls? (The published one lines them with dummy particles.)
 constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::paper; }
 
@@ -50,10 +53,11 @@ class WallImages {
     std::uint32_t first, last;   ///< particles
     const CellList* cells;
     double width;                ///< of the images' cells [m]
+    double depth;                ///< particles nearer to a wall than this have images [m]
   };
-  /// Finds the images of all particles nearer to a wall than `depth` [m].
+  /// Finds the images of particles.
   void build(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving, const Particles& particles,
-             std::span<const Range> ranges, double depth);
+             std::span<const Range> ranges);
 
   /// A particle beyond a wall changes places with its image; what it loses of its momentum is `received` by the walls,
   /// per moving wall and node [N s], and returned is the work on them [J]. Uses the feet of the last build.
@@ -87,7 +91,7 @@ class WallImages {
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
   };
   void find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
-                 std::span<const Range> ranges, double depth);
+                 std::span<const Range> ranges);
 
   std::vector<std::vector<Vec3>> normals_;  // per moving wall and node
   std::vector<Foot> feet_;                  // sorted by particle

@@ -173,9 +173,9 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
     cells.build(particles.x.data(), particles.y.data(), particles.z.data(), 0, count, 0.1);
     particles.permute(0, cells.order());
     for (FluidRow& row : particles.predicted) row = FluidRow{3, 4, 5, 7, 2, 1000, 1500, 0.06};
-    const WallImages::Range range{0, std::uint32_t(count), &cells, 0.1};
+    const WallImages::Range range{0, std::uint32_t(count), &cells, 0.1, 0.12};
     WallImages images;
-    images.build(settings, {}, {tube}, particles, {&range, 1}, 0.12);
+    images.build(settings, {}, {tube}, particles, {&range, 1});
     images.mirror_rows(particles);
     ASSERT_EQ(images.size(), std::size_t(count)) << "one each, on the edges of faces too";
     PairInput in{};
