@@ -18,7 +18,7 @@ struct BodyParticles {
 std::vector<BodyParticles> fill_bodies(const Settings& settings);
 std::vector<BodyParticles> fill_solids(const Settings& settings);
 
-/// Symmetry planes that lie between the lattice's cell faces, and what to do about it; one sentence each.
+/// Symmetry planes and slip walls that lie between the lattice's cell faces, and what to do about it; one sentence each.
 std::vector<std::string> lattice_warnings(const Settings& settings);
 
 /// Dummy particles of the rigid walls: the lattice continued beyond every face that is not open, as deep as the kernel

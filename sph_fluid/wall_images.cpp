@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/surface.hpp"
+#include "sph_fluid/lattice.hpp"
 
 namespace undex::sph {
 namespace {
@@ -167,13 +168,14 @@ struct WallPoint {
   double stretch;
 };
 
-WallPoint wall_point(const std::vector<MovingWall>& moving, const std::vector<std::vector<Vec3>>& normals, const Foot& foot) {
+WallPoint wall_point(const std::vector<MovingWall>& moving, const std::vector<std::vector<Vec3>>& normals,
+                     const std::vector<std::vector<Vec3>>& velocities, const Foot& foot) {
   const MovingWall& wall = moving[foot.wall];
   const Patch::Frame frame = Patch(wall, normals[foot.wall], foot.face).frame(foot.u, foot.v);
   const auto w = shape(foot.u, foot.v);
   const auto& face = wall.mesh[foot.face];
   Vec3 velocity = Vec3::Zero();
-  for (int c = 0; c < 4; ++c) velocity += w[c] * wall.velocity[face[c]];
+  for (int c = 0; c < 4; ++c) velocity += w[c] * velocities[foot.wall][face[c]];
   const double here = frame.element(-foot.distance), there = frame.element(foot.distance);
   return {frame.foot, frame.normal, velocity, image_volume(here > 0.0 ? there / here : 0.0)};
 }
@@ -233,6 +235,11 @@ double clearance(const SlipFaces& faces, const std::vector<MovingWall>& moving, 
 void WallImages::find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
                            std::span<const Range> ranges) {
   normals_.resize(moving.size());
+  velocities_.resize(moving.size());
+  while (footprints_.size() < moving.size()) {
+    const MovingWall& wall = moving[footprints_.size()];
+    footprints_.emplace_back(wall.mesh, wall.position, smoothing_length(settings, settings.lattice.spacing), settings.symmetry.axis);
+  }
   feet_.clear();
   const double beyond = 0.5 * settings.lattice.spacing;
   for (std::size_t w = 0; w < moving.size(); ++w) {
@@ -240,6 +247,7 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
     normals_[w].clear();
     if (wall.mesh.empty()) continue;
     normals_[w] = node_normals(wall.mesh, wall.position, settings.symmetry.axis);
+    velocities_[w] = footprints_[w].seen(wall.velocity);
     std::vector<std::vector<Foot>> found(omp_get_max_threads());
 #pragma omp parallel
     {
@@ -296,8 +304,8 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
   });
   // On an edge of two faces both have found it.
   const auto same = [&](const Foot& a, const Foot& b) {
-    return a.particle == b.particle && a.wall == b.wall &&
-           (wall_point(moving, normals_, a).foot - wall_point(moving, normals_, b).foot).norm() < beyond;
+    const auto place = [&](const Foot& f) { return wall_point(moving, normals_, velocities_, f).foot; };
+    return a.particle == b.particle && a.wall == b.wall && (place(a) - place(b)).norm() < beyond;
   };
   feet_.erase(std::unique(feet_.begin(), feet_.end(), same), feet_.end());
 }
@@ -333,7 +341,7 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
           auto foot = std::lower_bound(feet_.begin(), feet_.end(), i, [](const Foot& a, std::uint32_t k) { return a.particle < k; });
           for (; foot != feet_.end() && foot->particle == i; ++foot) {
             if (foot->distance <= 0.0) continue;
-            const WallPoint wall = wall_point(moving, normals_, *foot);
+            const WallPoint wall = wall_point(moving, normals_, velocities_, *foot);
             mine.push_back({i, -1, int(foot - feet_.begin()), wall.stretch, wall.foot + foot->distance * wall.normal, wall.normal,
                             wall.velocity});
           }
@@ -400,9 +408,13 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
     }
   };
   double work = 0;
-  std::vector<std::vector<Vec3>> normals;  // walls may have moved since
-  for (const MovingWall& wall : moving)
-    normals.push_back(wall.mesh.empty() || feet_.empty() ? std::vector<Vec3>() : node_normals(wall.mesh, wall.position, settings.symmetry.axis));
+  std::vector<std::vector<Vec3>> normals(moving.size()), velocities(moving.size()), given(moving.size());
+  for (std::size_t w = 0; w < moving.size() && !feet_.empty(); ++w) {  // walls may have moved since
+    if (moving[w].mesh.empty()) continue;
+    normals[w] = node_normals(moving[w].mesh, moving[w].position, settings.symmetry.axis);
+    velocities[w] = footprints_[w].seen(moving[w].velocity);
+    given[w].assign(moving[w].position.size(), Vec3::Zero());
+  }
   for (const Foot& last : feet_) {
     const std::uint32_t i = last.particle;
     Foot foot = last;
@@ -410,14 +422,16 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
     if (foot.distance > settings.lattice.spacing) continue;  // farther than a step can take it
     if (!Patch(moving[foot.wall], normals[foot.wall], foot.face).project(x, settings.lattice.spacing, foot)) continue;
     if (foot.distance >= 0.0) continue;
-    const WallPoint wall = wall_point(moving, normals, foot);
+    const WallPoint wall = wall_point(moving, normals, velocities, foot);
     const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);
     turn(i, wall.foot + foot.distance * wall.normal, wall.normal, wall.foot, wall.velocity);
     const Vec3 lost = particles.mass[i] * (before - Vec3(particles.vx[i], particles.vy[i], particles.vz[i]));
     work += lost.dot(wall.velocity);
     const auto weight = shape(foot.u, foot.v);
-    for (int c = 0; c < 4; ++c) received[foot.wall][moving[foot.wall].mesh[foot.face][c]] += weight[c] * lost;
+    for (int c = 0; c < 4; ++c) given[foot.wall][moving[foot.wall].mesh[foot.face][c]] += weight[c] * lost;
   }
+  for (std::size_t w = 0; w < moving.size(); ++w)
+    if (!given[w].empty()) footprints_[w].hand_on(given[w], received[w]);
   if (faces.round.empty() && faces.plane.empty()) return work;
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -514,13 +528,18 @@ double WallImages::hand_back(Particles& particles, const std::vector<MovingWall>
     }
   }
   double power = 0;
+  std::vector<std::vector<Vec3>> given(moving.size());
+  for (std::size_t w = 0; w < moving.size(); ++w)
+    if (!moving[w].mesh.empty()) given[w].assign(moving[w].position.size(), Vec3::Zero());
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
     if (images_[c].foot < 0) continue;
     const Foot& foot = feet_[images_[c].foot];
     const auto weight = shape(foot.u, foot.v);
-    for (int k = 0; k < 4; ++k) force[foot.wall][moving[foot.wall].mesh[foot.face][k]] += weight[k] * on_wall[c];
+    for (int k = 0; k < 4; ++k) given[foot.wall][moving[foot.wall].mesh[foot.face][k]] += weight[k] * on_wall[c];
     power += on_wall[c].dot(images_[c].wall_velocity);
   }
+  for (std::size_t w = 0; w < moving.size(); ++w)
+    if (!given[w].empty()) footprints_[w].hand_on(given[w], force[w]);
   return power;
 }
 

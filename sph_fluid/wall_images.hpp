@@ -15,6 +15,7 @@
 #include "core/vector.hpp"
 #include "sph_fluid/cell_list.hpp"
 #include "sph_fluid/fluid.hpp"
+#include "sph_fluid/footprint.hpp"
 #include "sph_fluid/particles.hpp"
 
 namespace undex::sph {
@@ -93,7 +94,9 @@ class WallImages {
   void find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
                  std::span<const Range> ranges);
 
-  std::vector<std::vector<Vec3>> normals_;  // per moving wall and node
+  std::vector<Footprint> footprints_;       // per moving wall
+  std::vector<std::vector<Vec3>> normals_;  // per moving wall and node, as the next
+  std::vector<std::vector<Vec3>> velocities_;  // that the feet see
   std::vector<Foot> feet_;                  // sorted by particle
   std::vector<Image> images_;               // by particle, parents before their images
   std::vector<std::uint32_t> slot_;         // place of an image in the arrays below

@@ -169,6 +169,30 @@ TEST(Lattice, WarnsOfAPlaneBetweenItsCellFaces) {
   EXPECT_TRUE(lattice_warnings(settings).empty());
 }
 
+TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
+  Settings settings = scene(2, 0.1, box(Vec3(0, 0, 0), Vec3(1, 0.55, 0)));
+  settings.walls = {box_wall(Vec3(0, 0, 0), Vec3(1, 0.55, 0))};
+  ASSERT_EQ(lattice_warnings(settings).size(), 1u);
+  EXPECT_NE(lattice_warnings(settings)[0].find("slip wall y = 0.55 m (the nearest is 0.5 spacings off)"), std::string::npos)
+      << lattice_warnings(settings)[0];
+  settings.lattice.fit = "box";
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+  settings.lattice.fit.clear();
+  settings.walls[0].faces["y_high"] = FaceCondition::no_slip;  // lined with the lattice itself
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+
+  settings = rings(0.05);
+  Wall wall;
+  wall.name = "side";
+  wall.container = Cylinder{2, Vec3::Zero(), 0.4445, -0.2, 0.2};
+  wall.faces = {{"low", FaceCondition::open}, {"high", FaceCondition::open}};
+  settings.walls = {wall};
+  EXPECT_TRUE(lattice_warnings(settings).empty());
+  settings.lattice.type = LatticeType::cartesian;
+  ASSERT_EQ(lattice_warnings(settings).size(), 1u);
+  EXPECT_NE(lattice_warnings(settings)[0].find("round slip wall of radius 0.4445 m"), std::string::npos) << lattice_warnings(settings)[0];
+}
+
 /// A ball does not see how its lattice lies: its particles, and all that becomes of them, are those of the lattice as it is, turned.
 TEST(Lattice, TurnedInABall) {
   for (const int dimension : {2, 3}) {
