@@ -5,6 +5,15 @@
 
 namespace undex {
 
+std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position) {
+  std::vector<double> area(position.size(), 0.0);
+  for (const std::array<int, 4>& face : faces) {
+    const Vec3 u = position[face[2]] - position[face[0]], v = position[face[3]] - position[face[1]];
+    for (const int n : face) area[n] += 0.125 * u.cross(v).norm();
+  }
+  return area;
+}
+
 std::vector<Vec3> node_normals(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position,
                                const std::array<bool, 3>& symmetry) {
   std::vector<Vec3> normal(position.size(), Vec3::Zero());

@@ -16,6 +16,9 @@ struct WetSurface {
   std::vector<std::array<int, 4>> faces;   ///< indices into nodes
 };
 
+/// Area [m^2] of each node, a quarter of each of its faces.
+std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position);
+
 /// Unit normals at the nodes of faces, away from the fluid: means weighted by area. Those of nodes on a symmetry plane (through
 /// the origin, across a marked axis) lie in it.
 std::vector<Vec3> node_normals(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position,

@@ -1,6 +1,5 @@
 #include "coupling/coupler.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,21 +15,11 @@ namespace {
 
 constexpr double added_mass_share = 0.3;  // of 1/omega: docs/equations.md, section 8
 
-/// Area [m^2] of each node of the surface, a quarter of each of its faces.
-std::vector<double> nodal_areas(const WetSurface& surface) {
-  std::vector<double> area(surface.nodes.size(), 0.0);
-  for (const std::array<int, 4>& face : surface.faces) {
-    const Vec3 u = surface.nodes[face[2]] - surface.nodes[face[0]], v = surface.nodes[face[3]] - surface.nodes[face[1]];
-    for (const int node : face) area[node] += 0.125 * u.cross(v).norm();
-  }
-  return area;
-}
-
 }  // namespace
 
 sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure) {
   const WetSurface& surface = structure.wet_surface();
-  const std::vector<double> area = nodal_areas(surface);
+  const std::vector<double> area = nodal_areas(surface.faces, surface.nodes);
   const auto mass = structure.wet_masses();
   // Liquids, and the stiffness [Pa/m] that one layer of their particles shows the wall.
   std::vector<std::pair<const sph::Body*, double>> liquids;

@@ -1,8 +1,9 @@
 #include "sph_fluid/footprint.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
+
+#include "core/surface.hpp"
 
 namespace undex::sph {
 namespace {
@@ -18,13 +19,9 @@ Vec3 reflected(Vec3 a, int mirror) {
 Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
                      const std::array<bool, 3>& symmetry) {
   const std::size_t count = position.size();
-  std::vector<double> area(count, 0.0);
+  const std::vector<double> area = nodal_areas(faces, position);
   Bounds box;
   for (const Vec3& x : position) box.include(x);
-  for (const std::array<int, 4>& face : faces) {
-    const Vec3 u = position[face[2]] - position[face[0]], v = position[face[3]] - position[face[1]];
-    for (const int n : face) area[n] += 0.125 * u.cross(v).norm();
-  }
   // Only nodes near each other along the longest axis are compared.
   int along = 0;
   (box.high - box.low).maxCoeff(&along);

@@ -358,16 +358,20 @@ std::vector<std::string> lattice_warnings(const Settings& settings) {
     for (const double face : {pair.symmetric ? -1e300 : pair.low, pair.high}) {
       const double miss = across ? 0.5 : off(face - grid.origin[a], grid.step[a]);
       if (std::abs(face) > 1e299 || miss < 1e-6) continue;
-      std::snprintf(text, sizeof text, "the lattice has no cell face on the slip wall %c = %g m (the nearest is %.2g spacings off): particles "
-                    "and their images leave a gap there or overlap, and pressure is off; name the wall, or a body that it encloses, "
-                    "in resolution.fit", "xyz"[a], face, miss);
+      std::snprintf(text, sizeof text,
+                    "the lattice has no cell face on the slip wall %c = %g m (the nearest is %.2g spacings off): particles and their "
+                    "images leave a gap there or overlap, and pressure is off; name the wall, or a body that it encloses, in "
+                    "resolution.fit",
+                    "xyz"[a], face, miss);
       warnings.push_back(text);
     }
   }
   for (const Cylinder& wall : faces.round) {
     if (grid.rings && grid.axis == wall.axis && off(wall.radius, grid.ring_width) < 1e-6) continue;
-    std::snprintf(text, sizeof text, "the lattice meets the round slip wall of radius %g m in steps, and pressure beside it is off; choose "
-                  "resolution.lattice = \"rings\", with the wall or a body that fills it in resolution.fit", wall.radius);
+    std::snprintf(text, sizeof text,
+                  "the lattice meets the round slip wall of radius %g m in steps, and pressure beside it is off; choose "
+                  "resolution.lattice = \"rings\", with the wall or a body that fills it in resolution.fit",
+                  wall.radius);
     warnings.push_back(text);
   }
   return warnings;

@@ -196,7 +196,8 @@ SlipFaces slip_faces(const Settings& settings) {
       const bool cut = settings.symmetry.axis[axis] && window.low[axis] <= 0.0;
       const bool with_low = slips(low) && !cut, with_high = slips(high);
       if (with_low || with_high)
-        result.plane.push_back({axis, cut ? 0.0 : with_low ? window.low[axis] : -1e300, with_high ? window.high[axis] : 1e300, cut, window});
+        result.plane.push_back(
+            {axis, cut ? 0.0 : with_low ? window.low[axis] : -1e300, with_high ? window.high[axis] : 1e300, cut, window});
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
       if (slips("side")) result.round.push_back(*cylinder);

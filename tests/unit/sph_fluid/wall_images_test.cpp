@@ -152,7 +152,7 @@ TEST(WallImages, MovingWallReceivesWhatTheFluidLoses) {
   }
 }
 
-/// Images in a fine mesh are those in the cylinder, at 2 R - r, the volume by 3/4 of the power of the ratio of space there and here, (2 R - r)/r.
+/// Images in a fine mesh are those in the cylinder: at 2 R - r, their volume by 3/4 of the power of the ratio of space, (2 R - r)/r.
 TEST(WallImages, InAMeshAreThoseInTheCylinder) {
   double previous = 0;
   for (const int around : {8, 16, 32}) {
