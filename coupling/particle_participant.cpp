@@ -100,17 +100,18 @@ std::vector<Patch> wet_patches(const sph::SolidBody& body, const sph::Settings& 
   return patches;
 }
 
-/// Adds a grid of quadrilaterals about a spacing wide. Round patches that close upon themselves share their first and last
-/// nodes in place, not in number: they move alike.
+/// Adds a grid of quadrilaterals about a spacing wide. Where a round patch closes upon itself the last nodes are the first.
 void mesh(const Patch& patch, double spacing, WetSurface& surface) {
   const int count[2] = {std::max(1, int(std::lround(patch.length[0] / spacing))),
                         std::max(1, int(std::lround(patch.length[1] / spacing)))};
   const int first = int(surface.nodes.size());
+  const bool closed = (patch.place(patch.low[0], patch.low[1]) - patch.place(patch.high[0], patch.low[1])).norm() < 1e-6 * spacing;
+  const int columns = closed ? count[0] : count[0] + 1;
   for (int j = 0; j <= count[1]; ++j)
-    for (int i = 0; i <= count[0]; ++i)
+    for (int i = 0; i < columns; ++i)
       surface.nodes.push_back(patch.place(patch.low[0] + (patch.high[0] - patch.low[0]) * i / count[0],
                                           patch.low[1] + (patch.high[1] - patch.low[1]) * j / count[1]));
-  const auto node = [&](int i, int j) { return first + j * (count[0] + 1) + i; };
+  const auto node = [&](int i, int j) { return first + j * columns + i % columns; };
   for (int j = 0; j < count[1]; ++j)
     for (int i = 0; i < count[0]; ++i) {
       std::array<int, 4> face{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
