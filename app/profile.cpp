@@ -250,7 +250,8 @@ NamedNumbers compare_profile(const scene::Scene& scene, const Simulation& simula
       break;
     }
     case scene::Solution::taylor_wave: {
-      auto solution = std::make_shared<exact::TaylorWave>(std::get<materials::Jwl>(c.body(problem.first).material.law), c.dimension);
+      auto solution = std::make_shared<exact::TaylorWave>(std::get<materials::Jwl>(c.body(problem.first).material.law),
+                                                          problem.plane ? 1 : c.dimension);
       c.exact = [solution, t = c.time](double r) {
         const exact::TaylorWave::Sample s = solution->sample(r, t);
         return FlowState{s.density, s.velocity, s.pressure};

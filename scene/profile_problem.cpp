@@ -1,5 +1,6 @@
 #include "scene/profile_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,13 +33,31 @@ ProfileProblem riemann(const sph::Settings& fluid) {
           "\"riemann\" needs bodies that meet in one plane across x; '" + fluid.bodies[left].name + "' ends at x = " +
               std::to_string(interface) + " m, '" + fluid.bodies[right].name + "' begins at " +
               std::to_string(box[right].low[0]) + " m");
-  return {Solution::riemann, left, right, Vec3(interface, 0, 0)};
+  return {Solution::riemann, left, right, false, Vec3(interface, 0, 0)};
+}
+
+/// Is the body a box between slip walls (or symmetry planes, which a wall's box spans) on all sides along x?
+bool fills_a_duct(const sph::Settings& fluid, const sph::Body& body) {
+  const auto* box = std::get_if<Box>(&body.shape.base);
+  if (fluid.dimension == 1 || box == nullptr) return fluid.dimension == 1;
+  return std::any_of(fluid.walls.begin(), fluid.walls.end(), [&](const sph::Wall& wall) {
+    const auto* duct = std::get_if<Box>(&wall.container);
+    if (duct == nullptr) return false;
+    for (int a = 1; a < fluid.dimension; ++a) {
+      if (std::abs(duct->low[a] - box->low[a]) + std::abs(duct->high[a] - box->high[a]) > 1e-9 * (box->high[a] - box->low[a])) return false;
+      for (const char* side : {"_low", "_high"}) {
+        const auto face = wall.faces.find("xyz"[a] + std::string(side));
+        if (face != wall.faces.end() && face->second != sph::FaceCondition::free_slip) return false;
+      }
+    }
+    return true;
+  });
 }
 
 ProfileProblem taylor_wave(const sph::Settings& fluid) {
   require(fluid.bodies.size() == 1 && fluid.bodies[0].burn && at_rest(fluid.bodies[0]),
           "\"taylor_wave\" needs one body alone, a charge at rest with a programmed burn");
-  return {Solution::taylor_wave, 0, 0, fluid.bodies[0].burn->origin};
+  return {Solution::taylor_wave, 0, 0, fills_a_duct(fluid, fluid.bodies[0]), fluid.bodies[0].burn->origin};
 }
 
 ProfileProblem sedov(const sph::Settings& fluid) {
@@ -50,14 +69,14 @@ ProfileProblem sedov(const sph::Settings& fluid) {
   require(at_rest(a) && at_rest(b) && start_density(a) == start_density(b), wanted);
   const std::size_t hot = start_energy(a) > start_energy(b) ? 0 : 1, cold = 1 - hot;
   require(start_energy(fluid.bodies[cold]) < 1e-3 * start_energy(fluid.bodies[hot]), wanted);
-  return {Solution::sedov, hot, cold, middle(fluid.bodies[hot].shape.base, fluid.dimension)};
+  return {Solution::sedov, hot, cold, false, middle(fluid.bodies[hot].shape.base, fluid.dimension)};
 }
 
 ProfileProblem noh(const sph::Settings& fluid) {
   require(fluid.bodies.size() == 1 && ideal_gas(fluid.bodies[0]) && start_energy(fluid.bodies[0]) == 0.0 &&
               fluid.bodies[0].velocity.isZero() && fluid.bodies[0].radial_velocity < 0.0,
           "\"noh\" needs one body alone, of law \"ideal_gas\", without energy and with a negative radial_velocity");
-  return {Solution::noh, 0, 0, middle(fluid.bodies[0].shape.base, fluid.dimension)};
+  return {Solution::noh, 0, 0, false, middle(fluid.bodies[0].shape.base, fluid.dimension)};
 }
 
 }  // namespace
