@@ -16,6 +16,13 @@ struct WetSurface {
   std::vector<std::array<int, 4>> faces;   ///< indices into nodes
 };
 
+/// The image of a place or vector across symmetry planes through the origin; bit a of `axes`: across axis a.
+inline Vec3 mirrored(Vec3 x, unsigned axes) {
+  for (int a = 0; a < 3; ++a)
+    if (axes >> a & 1) x[a] = -x[a];
+  return x;
+}
+
 /// Area [m^2] of each node, a quarter of each of its faces.
 std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position);
 

@@ -6,15 +6,6 @@
 #include "core/surface.hpp"
 
 namespace undex::sph {
-namespace {
-
-Vec3 reflected(Vec3 a, int mirror) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (mirror >> axis & 1) a[axis] = -a[axis];
-  return a;
-}
-
-}  // namespace
 
 Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
                      const std::array<bool, 3>& symmetry) {
@@ -33,11 +24,11 @@ Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const 
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t first = shares_.size();
     double sum = 0;
-    for (int mirror = 0; mirror < 8; ++mirror) {
+    for (unsigned mirror = 0; mirror < 8; ++mirror) {
       bool wanted = true;
       for (int a = 0; a < 3; ++a) wanted = wanted && (!(mirror >> a & 1) || (symmetry[a] && position[n][a] < width));
       if (!wanted) continue;
-      const Vec3 at = reflected(position[n], mirror);
+      const Vec3 at = mirrored(position[n], mirror);
       auto it = std::lower_bound(order.begin(), order.end(), at[along] - width,
                                  [&](int node, double low) { return position[node][along] < low; });
       for (; it != order.end() && position[*it][along] < at[along] + width; ++it) {
@@ -64,14 +55,14 @@ std::vector<Vec3> Footprint::seen(std::span<const Vec3> nodal) const {
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < nodal.size(); ++n)
     for (std::size_t k = begin_[n]; k < begin_[n + 1]; ++k)
-      result[n] += shares_[k].weight * reflected(nodal[shares_[k].node], shares_[k].mirror);
+      result[n] += shares_[k].weight * mirrored(nodal[shares_[k].node], shares_[k].mirror);
   return result;
 }
 
 void Footprint::hand_on(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const {
   for (std::size_t n = 0; n < nodal.size(); ++n)
     for (std::size_t k = begin_[n]; k < begin_[n + 1]; ++k)
-      sum[shares_[k].node] += shares_[k].weight * reflected(nodal[n], shares_[k].mirror);
+      sum[shares_[k].node] += shares_[k].weight * mirrored(nodal[n], shares_[k].mirror);
 }
 
 }  // namespace undex::sph

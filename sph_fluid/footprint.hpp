@@ -27,7 +27,8 @@ class Footprint {
 
  private:
   struct Share {
-    int node, mirror;  // bit a of `mirror`: reflected across axis a
+    int node;
+    unsigned mirror;  // bit a of `mirror`: reflected across axis a
     double weight;
   };
   std::vector<std::size_t> begin_;

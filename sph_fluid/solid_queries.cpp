@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/surface.hpp"
 #include "sph_fluid/kernels.hpp"
 #include "sph_fluid/solids_implementation.hpp"
 #include "sph_fluid/sums.hpp"
@@ -14,12 +15,7 @@
 namespace undex::sph {
 namespace {
 
-Vec3 mirrored(Vec3 x, unsigned image) {
-  for (int a = 0; a < 3; ++a)
-    if (image >> a & 1) x[a] = -x[a];
-  return x;
-}
-
+using undex::mirrored;  // of vectors; of symmetric tensors:
 Mat3 mirrored(Mat3 s, unsigned image) {
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
