@@ -202,7 +202,7 @@ CASES = {
     "quiescent_rings": lambda run, get: quiescent(run),
     "hydrostatic_box": lambda run, get: hydrostatic(run),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
-    "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall of dummies and plane"),
+    "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall and plane"),
 }
 
 
