@@ -14,9 +14,9 @@ namespace undex::app {
 class ChildProcess {
  public:
   struct End {
-    int exit_code = 0;          ///< -1 where a signal ended it
+    int exit_code = 0;  ///< -1 where a signal ended it
     int signal = 0;
-    double cpu_time_s = 0;      ///< of all its threads
+    double cpu_time_s = 0;  ///< of all its threads
     double wall_time_s = 0;
   };
 
@@ -28,8 +28,8 @@ class ChildProcess {
   /// Whether it has ended, and how. Does not wait.
   std::optional<End> ended();
   void send(int signal) const;
-  double cpu_time() const;      ///< [s] so far
-  double wall_time() const;     ///< [s] since its start
+  double cpu_time() const;   ///< [s] so far
+  double wall_time() const;  ///< [s] since its start
 
  private:
   pid_t process_;

@@ -104,8 +104,10 @@ Reference read_reference(const fs::path& path) {
         throw FileError(path.string() + ": column '" + column.name + "': " + error.what() + "; mend the file");
       }
   } else {
-    throw FileError(path.string() + ": neither a table of metrics (header metric,label,unit,scale,<source>,...) nor a history "
-                    "(header time [s],pressure [Pa],...); its first line is '" + header + "'");
+    throw FileError(path.string() +
+                    ": neither a table of metrics (header metric,label,unit,scale,<source>,...) nor a history "
+                    "(header time [s],pressure [Pa],...); its first line is '" +
+                    header + "'");
   }
   return reference;
 }
@@ -195,8 +197,7 @@ std::vector<Compared> gather(const std::vector<Run>& runs, std::vector<std::stri
         displaced.insert(common);
     }
   }
-  for (const std::string& name : displaced)
-    notes.push_back("probe " + name + " does not stand at the same point in all runs");
+  for (const std::string& name : displaced) notes.push_back("probe " + name + " does not stand at the same point in all runs");
   const std::string& primary = runs.front().scene.compared_probe;
   std::stable_partition(all.begin(), all.end(), [&](const Compared& each) { return each.quantity.probe == primary; });
 
@@ -359,9 +360,8 @@ ComparedBlock cost_block(const std::vector<Run>& runs) {
   add_row(block, runs, "steps", "", [&](const RunRecord& r) { return count(r.steps); });
   add_row(block, runs, "particles", "", [&](const RunRecord& r) { return count(r.particles); });
   add_row(block, runs, "cells", "", [&](const RunRecord& r) { return count(r.cells); });
-  add_row(block, runs, "particle updates", "million/CPU s", [&](const RunRecord& r) {
-    return r.cpu_time_s > 0 ? 1e-6 * count(r.particle_updates) / r.cpu_time_s : nan;
-  });
+  add_row(block, runs, "particle updates", "million/CPU s",
+          [&](const RunRecord& r) { return r.cpu_time_s > 0 ? 1e-6 * count(r.particle_updates) / r.cpu_time_s : nan; });
   add_row(block, runs, "memory", "MB", [&](const RunRecord& r) { return 1e-6 * count(r.peak_memory_bytes); });
   return block;
 }
@@ -504,8 +504,9 @@ void require_common(const std::vector<Run>& runs, const std::vector<Compared>& a
                        "D: their energies are not of one kind; compare runs of one dimension");
   // An energy error everything has.
   if (std::none_of(all.begin(), all.end(), [](const Compared& each) { return each.quantity.count() > 1 && !is_error(each); }))
-    throw UsageError("the runs have no quantity in common (no probe of one name and kind, no part of the energy); give them "
-                     "probes of one name in their scenes");
+    throw UsageError(
+        "the runs have no quantity in common (no probe of one name and kind, no part of the energy); give them "
+        "probes of one name in their scenes");
 }
 
 }  // namespace
@@ -525,14 +526,14 @@ int compare_runs(const CompareArguments& arguments) {
   }
   std::vector<Run> runs;
   std::set<fs::path> seen;
-  for (const std::string& folder : arguments.runs) mistakes.collect([&] {
-    std::error_code error;
-    if (!seen.insert(fs::weakly_canonical(folder, error)).second)
-      throw UsageError(folder + " is given twice; leave one out");
-    Run run{output::read_run_folder(folder), {}};
-    run.scene = read_resolved(run.folder.settings, (run.folder.path / "resolved.toml").string());
-    runs.push_back(std::move(run));
-  });
+  for (const std::string& folder : arguments.runs)
+    mistakes.collect([&] {
+      std::error_code error;
+      if (!seen.insert(fs::weakly_canonical(folder, error)).second) throw UsageError(folder + " is given twice; leave one out");
+      Run run{output::read_run_folder(folder), {}};
+      run.scene = read_resolved(run.folder.settings, (run.folder.path / "resolved.toml").string());
+      runs.push_back(std::move(run));
+    });
   Reference reference;
   mistakes.collect([&] { reference = read_reference(arguments.reference); });
   mistakes.raise();
@@ -570,7 +571,8 @@ int compare_runs(const CompareArguments& arguments) {
           return output::find_number(run.metrics, row.metric) != nullptr;
         });
       }))
-    throw UsageError(arguments.reference + ": none of its metrics is a result of these runs; give the table of their scenes' "
+    throw UsageError(arguments.reference +
+                     ": none of its metrics is a result of these runs; give the table of their scenes' "
                      "comparison, or a history");
 
   std::string only_once;

@@ -52,9 +52,7 @@ output::Series radial(const scene::Scene& scene, const Probes& probes, const sce
   return sum;
 }
 
-std::filesystem::path reference_path(const scene::Scene& scene) {
-  return scene.file.parent_path() / scene.comparison.reference;
-}
+std::filesystem::path reference_path(const scene::Scene& scene) { return scene.file.parent_path() / scene.comparison.reference; }
 
 output::NamedNumbers rigid_cylinder(const scene::Scene& scene, const Probes& probes) {
   output::Series reference;

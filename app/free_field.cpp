@@ -31,8 +31,7 @@ std::vector<output::Series> free_field_in_one_dimension(const scene::Scene& scen
   constexpr int samples = 2000;
   for (int i = 0; i <= samples; ++i) {
     flow.advance(end * i / samples);
-    for (std::size_t k = 0; k < probes.size(); ++k)
-      pressures[k].append(flow.time(), flow.at(radius(probes[k], charge)).pressure);
+    for (std::size_t k = 0; k < probes.size(); ++k) pressures[k].append(flow.time(), flow.at(radius(probes[k], charge)).pressure);
   }
   return pressures;
 }

@@ -15,12 +15,14 @@ using namespace undex::app;
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (.toml), or a folder with case.toml")->required();
-  command.add_option_function<std::string>(
-             "-P,--set", [&](const std::string& text) { arguments.overrides.push_back(text); },
-             "key=value: override a key of the scene by its dotted path; may be repeated")
+  command
+      .add_option_function<std::string>(
+          "-P,--set", [&](const std::string& text) { arguments.overrides.push_back(text); },
+          "key=value: override a key of the scene by its dotted path; may be repeated")
       ->trigger_on_parse();
-  command.add_option_function<std::string>(
-             "--tend", [&](const std::string& text) { arguments.overrides.push_back("end_time=" + text); }, "end time [s]")
+  command
+      .add_option_function<std::string>(
+          "--tend", [&](const std::string& text) { arguments.overrides.push_back("end_time=" + text); }, "end time [s]")
       ->trigger_on_parse();
   command.add_option("-j,--threads", arguments.threads, "threads; 0: the scene's choice, or all the machine has")
       ->check(CLI::Range(0, 4096));
@@ -34,8 +36,11 @@ int dispatch(int argc, char** argv) {
   CLI::App* run = program.add_subcommand("run", "compute a scene");
   add_scene_arguments(*run, run_arguments);
   run->add_option("-o,--output", run_arguments.output, "output folder; default: out/<scene name>");
-  CLI::Option* quiet = run->add_flag_callback("-q,--quiet", [&] { run_arguments.verbosity = -1; }, "print nothing but errors");
-  run->add_flag_callback("-v,--verbose", [&] { run_arguments.verbosity = 1; }, "print every step")->excludes(quiet);
+  CLI::Option* quiet = run->add_flag_callback(
+      "-q,--quiet", [&] { run_arguments.verbosity = -1; }, "print nothing but errors");
+  run->add_flag_callback(
+         "-v,--verbose", [&] { run_arguments.verbosity = 1; }, "print every step")
+      ->excludes(quiet);
   run->add_flag("--force", run_arguments.force, "write into an output folder that is not empty");
 
   SceneArguments check_arguments;
@@ -46,7 +51,9 @@ int dispatch(int argc, char** argv) {
   CLI::App* comparison = program.add_subcommand(
       "compare",
       "finished runs beside each other: histories at common times, energies, errors, cost, and how far each is from the first");
-  comparison->add_option("runs", compare_arguments.runs, "output folders of two runs or more; the first is what the others are compared with")
+  comparison
+      ->add_option("runs", compare_arguments.runs,
+                   "output folders of two runs or more; the first is what the others are compared with")
       ->required()
       ->expected(2, -1)
       ->type_name("RUN");
@@ -58,8 +65,9 @@ int dispatch(int argc, char** argv) {
                          "names of the runs, such as FEM,SPH; default: the settings that tell them apart");
   comparison->add_option("-o,--output", compare_arguments.output, "output folder; default: out/compare");
   comparison->add_flag("--force", compare_arguments.force, "write into an output folder that is not empty");
-  comparison->footer("Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
-                     "how: docs/outputs.md");
+  comparison->footer(
+      "Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
+      "how: docs/outputs.md");
 
   StudyArguments study_arguments;
   CLI::App* study = program.add_subcommand(
@@ -69,15 +77,19 @@ int dispatch(int argc, char** argv) {
   study->add_option("-j,--jobs", study_arguments.jobs, "runs at a time (each with the study's threads, by default one)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  study->add_option("--only", study_arguments.only, "only runs whose name has this in it, or matches it (* and ?); may be repeated")
+  study
+      ->add_option("--only", study_arguments.only,
+                   "only runs whose name has this in it, or matches it (* and ?); may be repeated")
       ->type_name("PATTERN")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  study->add_flag("--list", study_arguments.list, "say which runs there are, which are there and which would be run; write nothing");
+  study->add_flag("--list", study_arguments.list,
+                  "say which runs there are, which are there and which would be run; write nothing");
   study->add_flag("--again", study_arguments.again, "run also what is there");
   study->add_flag("-q,--quiet", study_arguments.quiet, "print nothing but errors");
-  study->footer("Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
-                "The study file: docs/studies.md");
+  study->footer(
+      "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
+      "The study file: docs/studies.md");
 
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");

@@ -76,13 +76,15 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     if (const sph::Solids* solids = simulation.solids()) {
       if (probe.kind == scene::Probe::Kind::structure) solid = solids->locate(probe.point);
       if (probe.kind == scene::Probe::Kind::wall)
-        if (const auto at = nearest_surface(scene.fluid, probe.point, 2.0 * scene.fluid.lattice.spacing)) solid = solids->locate(*at);
+        if (const auto at = nearest_surface(scene.fluid, probe.point, 2.0 * scene.fluid.lattice.spacing))
+          solid = solids->locate(*at);
     } else if (probe.kind == scene::Probe::Kind::structure) {
       material = simulation.structure()->locate(probe.point);
     }
     const std::size_t count = columns.size();
     output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back({probe, foot, material, solid, std::move(columns), std::move(history), std::vector<std::vector<double>>(count)});
+    channels_.push_back(
+        {probe, foot, material, solid, std::move(columns), std::move(history), std::vector<std::vector<double>>(count)});
   }
 }
 

@@ -32,12 +32,12 @@ class Probes {
  private:
   struct Channel {
     scene::Probe probe;
-    std::optional<coupling::WetWall::Foot> foot;     ///< of wall probes on a moving wall
-    std::optional<fem::Structure::Probe> material;   ///< of structure probes on finite elements
-    std::optional<sph::Solids::Point> solid;         ///< of structure probes on solids, and of wall probes at their surface
+    std::optional<coupling::WetWall::Foot> foot;    ///< of wall probes on a moving wall
+    std::optional<fem::Structure::Probe> material;  ///< of structure probes on finite elements
+    std::optional<sph::Solids::Point> solid;        ///< of structure probes on solids, and of wall probes at their surface
     std::vector<output::Column> columns;
     output::History history;
-    std::vector<std::vector<double>> samples;        ///< one series per column, time first
+    std::vector<std::vector<double>> samples;  ///< one series per column, time first
   };
   std::vector<double> read(const Channel& channel, const Simulation& simulation) const;
   static void append(Channel& channel, const std::vector<double>& row);

@@ -41,8 +41,8 @@ struct Comparison {
 
 /// `name`, `exact_name` and their distance in spacings.
 void add_position(NamedNumbers& metrics, const Comparison& c, const std::string& name, double run, double exact) {
-  metrics.insert(metrics.end(), {{name + "_m", run}, {"exact_" + name + "_m", exact},
-                                 {name + "_error_spacings", (run - exact) / c.spacing}});
+  metrics.insert(metrics.end(),
+                 {{name + "_m", run}, {"exact_" + name + "_m", exact}, {name + "_error_spacings", (run - exact) / c.spacing}});
 }
 
 void add_pair(NamedNumbers& metrics, const std::string& name, double run, double exact) {
@@ -133,8 +133,7 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
   const double exact_edge[2] = {x0 + t * solution.star(0).velocity, x0 + t * solution.star(1).velocity};
   if (solution.cavity())
     add_position(metrics, c, "void_half_width", 0.5 * (edge[1] - edge[0]), 0.5 * (exact_edge[1] - exact_edge[0]));
-  else
-    add_position(metrics, c, "contact", 0.5 * (edge[0] + edge[1]), exact_edge[0]);
+  else add_position(metrics, c, "contact", 0.5 * (edge[0] + edge[1]), exact_edge[0]);
 
   for (const int side : {0, 1}) {
     // The middle third between contact and wave.
@@ -186,7 +185,7 @@ NamedNumbers taylor_wave_metrics(const Comparison& c, const exact::TaylorWave& s
 }
 
 /// The largest of a quantity in means over shells.
-double shell_peak(const Profile& shells, double FlowState::* quantity) {
+double shell_peak(const Profile& shells, double FlowState::*quantity) {
   double most = nan;
   for (const ProfilePoint& p : shells) most = std::fmax(most, p.run.*quantity);
   return most;

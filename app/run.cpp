@@ -40,11 +40,12 @@ void catch_signals() {
 /// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
 class EnergyHistory {
  public:
-  EnergyHistory(const std::filesystem::path& folder, bool gravity) : gravity_(gravity), history_(folder / "energy.csv", columns(gravity)) {}
+  EnergyHistory(const std::filesystem::path& folder, bool gravity)
+      : gravity_(gravity), history_(folder / "energy.csv", columns(gravity)) {}
   void sample(const Simulation& simulation) {
     const EnergyBalance e = simulation.energy();
-    std::vector<double> row{simulation.time(), e.kinetic, e.internal, e.dissipated, e.structure_kinetic, e.elastic, e.plastic,
-                            e.viscous, e.work_given, e.work_received, e.external};
+    std::vector<double> row{simulation.time(), e.kinetic, e.internal,   e.dissipated,    e.structure_kinetic, e.elastic,
+                            e.plastic,         e.viscous, e.work_given, e.work_received, e.external};
     if (gravity_) row.push_back(e.gravity);
     row.insert(row.end(), {e.total(), e.error()});
     history_.append(row);
@@ -96,10 +97,8 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
     record.neighbour_interactions = fluid->neighbour_interactions();
     record.solver_memory_bytes += std::int64_t(fluid->memory_bytes());
     const sph::Clamps clamps = fluid->clamps();
-    record.clamps = {{"density", clamps.density},
-                     {"smoothing", clamps.smoothing},
-                     {"filling", clamps.filling},
-                     {"energy", clamps.energy}};
+    record.clamps = {
+        {"density", clamps.density}, {"smoothing", clamps.smoothing}, {"filling", clamps.filling}, {"energy", clamps.energy}};
   }
   if (const sph::Solids* solids = simulation.solids()) {
     record.particles += std::int64_t(solids->particle_count());
@@ -174,8 +173,10 @@ void print_cost(const output::RunRecord& record) {
                 record.interface_impulse_error.value_or(0.0));
   std::printf("\n");
   if (std::abs(record.energy_error) > 0.01)
-    std::printf("note: the energy balance is off by %.1f %%; compare with a smaller step (scheme.courant, structure.courant, "
-                "solid_scheme.courant)\n", 100.0 * record.energy_error);
+    std::printf(
+        "note: the energy balance is off by %.1f %%; compare with a smaller step (scheme.courant, structure.courant, "
+        "solid_scheme.courant)\n",
+        100.0 * record.energy_error);
 }
 
 }  // namespace

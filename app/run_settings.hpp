@@ -26,11 +26,11 @@ struct Axis {
 
 struct ResolvedScene {
   int dimension = 3;
-  output::RunSettings settings;           ///< all that bears on the physics and its discretisation
+  output::RunSettings settings;  ///< all that bears on the physics and its discretisation
   std::map<std::string, RunProbe> probes;
-  std::vector<std::string> probe_order;   ///< as in the scene
-  std::string compared_probe;             ///< comparison.probe; may be empty
-  std::optional<Axis> axis;               ///< of the structure, where it is round
+  std::vector<std::string> probe_order;  ///< as in the scene
+  std::string compared_probe;            ///< comparison.probe; may be empty
+  std::optional<Axis> axis;              ///< of the structure, where it is round
 };
 
 /// Reads the text of a resolved.toml. Throws SceneError, naming `file`, where it is not TOML.

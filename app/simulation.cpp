@@ -28,8 +28,7 @@ Simulation::Simulation(const scene::Scene& scene) {
   attempt([&] {
     if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
       participant_ = std::make_unique<coupling::ElementParticipant>(*structure_);
-    else if (fluid_ && solids_ && as_surface)
-      participant_ = std::make_unique<coupling::ParticleParticipant>(*solids_);
+    else if (fluid_ && solids_ && as_surface) participant_ = std::make_unique<coupling::ParticleParticipant>(*solids_);
     if (participant_) coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *participant_, scene.coupling);
   });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
@@ -59,12 +58,13 @@ void Simulation::advance(double end) {
   if (coupler_) {
     const coupling::Coupler::Window window = coupler_->advance(end);
     last_step_ = window.step;
-    std::snprintf(text, sizeof text, "%s (%s) x%ld, structure x%ld", window.limit.criterion.c_str(),
-                  window.limit.body.c_str(), window.fluid_steps, window.structure_steps);
+    std::snprintf(text, sizeof text, "%s (%s) x%ld, structure x%ld", window.limit.criterion.c_str(), window.limit.body.c_str(),
+                  window.fluid_steps, window.structure_steps);
   } else if (particle_system_) {
     const sph::ParticleSystem::Step step = particle_system_->advance(end);
     last_step_ = step.step;
-    std::snprintf(text, sizeof text, "%s (%s), solids x%ld", step.limit.criterion.c_str(), step.limit.body.c_str(), step.solid_steps);
+    std::snprintf(text, sizeof text, "%s (%s), solids x%ld", step.limit.criterion.c_str(), step.limit.body.c_str(),
+                  step.solid_steps);
   } else if (fluid_) {
     const sph::StepLimit limit = fluid_->step_limit();
     const double left = end - fluid_->time();
@@ -117,19 +117,15 @@ EnergyBalance Simulation::energy() const {
     external = copies_ * s.external;
     e.gravity += copies_ * s.gravity;
   }
-  if (coupler_ || particle_system_)
-    e.work_received = external;
-  else
-    e.external = external;
+  if (coupler_ || particle_system_) e.work_received = external;
+  else e.external = external;
   e.start = start_energy_;
   e.scale = std::max({energy_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
   return e;
 }
 
 /// Of what is in particles [kg]: the mass of finite elements cannot change.
-double Simulation::mass() const {
-  return (fluid_ ? fluid_->ledger().mass : 0.0) + (solids_ ? solids_->ledger().mass : 0.0);
-}
+double Simulation::mass() const { return (fluid_ ? fluid_->ledger().mass : 0.0) + (solids_ ? solids_->ledger().mass : 0.0); }
 
 Vec3 Simulation::momentum() const {
   Vec3 momentum = Vec3::Zero();

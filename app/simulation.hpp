@@ -17,16 +17,16 @@ namespace undex::app {
 
 /// Energies [J] of the whole body: what symmetry planes cut off is counted.
 struct EnergyBalance {
-  double kinetic = 0, internal = 0, dissipated = 0;             // fluid
+  double kinetic = 0, internal = 0, dissipated = 0;                     // fluid
   double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
-  double work_given = 0, work_received = 0;                     // across the interface
-  double external = 0;                                          // work of prescribed loads on the structure, of rigid planes on solids
-  double gravity = 0;                                           // its work on everything
-  double start = 0;                                             // sum at the start
+  double work_given = 0, work_received = 0;                             // across the interface
+  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids
+  double gravity = 0;   // its work on everything
+  double start = 0;     // sum at the start
   double total() const {
     return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity;
   }
-  double scale = 0;                                             // what errors are measured against
+  double scale = 0;  // what errors are measured against
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
 };
 
@@ -45,7 +45,8 @@ class Simulation {
 
   EnergyBalance energy() const;
   double mass_error() const;
-  /// Relative change of momentum of everything together; NaN where gravity, walls, rigid planes, supports or symmetry planes take part.
+  /// Relative change of momentum of everything together; NaN where gravity, walls, rigid planes, supports or symmetry planes take
+  /// part.
   double momentum_error() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;
@@ -75,10 +76,10 @@ class Simulation {
   PassTimers timers_;
   std::string last_text_ = "-";
   double last_step_ = 0;
-  double copies_ = 1;          // mirrored copies that the symmetry planes stand for, this one included
+  double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   double start_energy_ = 0, start_mass_ = 0;
-  double energy_scale_ = 0;    // largest part of the energy met so far
-  bool closed_ = false;        // does momentum balance without walls, supports and planes?
+  double energy_scale_ = 0;  // largest part of the energy met so far
+  bool closed_ = false;      // does momentum balance without walls, supports and planes?
   Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();
 };
 

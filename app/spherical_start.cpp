@@ -52,8 +52,7 @@ double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, con
   for (const Primitive& hole : medium.shape.removed)
     if (!same_sphere(hole, sphere)) distance = std::min(distance, signed_distance(hole, sphere.center, 3));
   for (const sph::Body& body : scene.fluid.bodies)
-    if (&body != &charge && &body != &medium)
-      distance = std::min(distance, signed_distance(body.shape, sphere.center, 3));
+    if (&body != &charge && &body != &medium) distance = std::min(distance, signed_distance(body.shape, sphere.center, 3));
   return distance;
 }
 
@@ -102,9 +101,7 @@ std::shared_ptr<const sph::StartField> field_of(std::shared_ptr<const exact::Lag
 
 }  // namespace
 
-Sphere spherical_charge(const scene::Scene& scene) {
-  return std::get<Sphere>(scene.fluid.bodies[find_charge(scene)].shape.base);
-}
+Sphere spherical_charge(const scene::Scene& scene) { return std::get<Sphere>(scene.fluid.bodies[find_charge(scene)].shape.base); }
 
 exact::Lagrangian1D spherical_flow(const scene::Scene& scene, double outer, int charge_cells) {
   const sph::Body& charge = scene.fluid.bodies[find_charge(scene)];
@@ -121,8 +118,7 @@ std::string begin_spherically(scene::Scene& scene) {
   for (int a = 0; a < 3; ++a)
     if (fluid.symmetry.axis[a]) {
       share *= 0.5;
-      if (sphere.center[a] != 0.0)
-        refuse(scene, "the center of '" + charge.name + "' must lie on every symmetry plane");
+      if (sphere.center[a] != 0.0) refuse(scene, "the center of '" + charge.name + "' must lie on every symmetry plane");
     }
   if (charge.velocity.norm() > 0 || medium.velocity.norm() > 0) refuse(scene, "charge and medium must be at rest");
   for (const sph::SolidBody& solid : fluid.solids)
@@ -167,10 +163,9 @@ std::string begin_spherically(scene::Scene& scene) {
   fluid.heat_before = share * flow->barotropic_heat();
 
   char text[300];
-  std::snprintf(text, sizeof text,
-                "spherical start: %d cells to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
-                flow->cells(), flow->time() * 1e6, front * 1e3, obstacle * 1e3, charge.name.c_str(), sphere.radius * 1e3,
-                radius * 1e3);
+  std::snprintf(
+      text, sizeof text, "spherical start: %d cells to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
+      flow->cells(), flow->time() * 1e6, front * 1e3, obstacle * 1e3, charge.name.c_str(), sphere.radius * 1e3, radius * 1e3);
   return text;
 }
 

@@ -91,14 +91,12 @@ References read_references(const scene::Study& study) {
       else if (const auto metric = std::find(metrics.begin(), metrics.end(), error.metric); metric == metrics.end())
         findings.push_back({error.where, "errors: " + file + " has no metric '" + error.metric + "'" +
                                              scene::suggestion(error.metric, metrics)});
-      else if (const double value = table->second.rows[std::size_t(metric - metrics.begin())]
-                                        .values[std::size_t(source - sources.begin())]
-                                        .value;
+      else if (const double value =
+                   table->second.rows[std::size_t(metric - metrics.begin())].values[std::size_t(source - sources.begin())].value;
                std::isnan(value) || value == 0)
         findings.push_back(
             {error.where, "errors: source '" + error.source + "' of " + file + " has no value of " + error.metric});
-      else
-        continue;
+      else continue;
       break;
     }
   }
@@ -120,15 +118,14 @@ void require_study_folder(const fs::path& folder) {
 
 bool chosen(const std::string& name, const std::vector<std::string>& patterns) {
   return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-    return name.find(pattern) != std::string::npos || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-  });
+           return name.find(pattern) != std::string::npos || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+         });
 }
 
 /// Every pattern of --only must be of use.
 void require_match(const scene::Study& study, const std::vector<std::string>& patterns) {
   for (const std::string& pattern : patterns) {
-    if (std::any_of(study.runs.begin(), study.runs.end(), [&](const auto& run) { return chosen(run.name, {pattern}); }))
-      continue;
+    if (std::any_of(study.runs.begin(), study.runs.end(), [&](const auto& run) { return chosen(run.name, {pattern}); })) continue;
     std::vector<std::string> names;
     for (std::size_t r = 0; r < std::min<std::size_t>(study.runs.size(), 10); ++r) names.push_back(study.runs[r].name);
     throw UsageError("--only " + pattern + ": no run of the study matches; names are such as " + scene::listed(names));
@@ -148,18 +145,18 @@ StudyRow row_of(const scene::Study& study, const scene::StudyRun& run, const Run
   }
   if (row.curve.empty()) row.curve = study.name;
   // Results of other settings are not this run's.
-  const bool known = state.finished || state.status == "failed" || state.status == "refused" ||
-                     state.status == "interrupted" || state.status == "limit";
+  const bool known = state.finished || state.status == "failed" || state.status == "refused" || state.status == "interrupted" ||
+                     state.status == "limit";
   row.status = known ? state.status : "not run";
   row.message = known ? state.message : state.reason == "not there" ? "" : state.reason;
   row.record = state.record;
   row.cpu_times = state.cpu_times;
   row.wall_times = state.wall_times;
   const auto reference = references.find(run.reference);
-  row.errors = state.status == "done"
-                   ? study_errors(study, state.record,
-                                  reference == references.end() ? std::nullopt : std::optional(reference->second))
-                   : std::vector<double>(study.errors.size(), nan);
+  row.errors =
+      state.status == "done"
+          ? study_errors(study, state.record, reference == references.end() ? std::nullopt : std::optional(reference->second))
+          : std::vector<double>(study.errors.size(), nan);
   return row;
 }
 
@@ -192,8 +189,7 @@ class Work {
  public:
   Work(const scene::Study& study, const References& references, const fs::path& folder, bool quiet)
       : study_(study), references_(references), folder_(folder), states_(run_states(study, folder / "runs")), quiet_(quiet) {
-    for (std::size_t r = 0; r < study.runs.size(); ++r)
-      rows_.push_back(row_of(study, study.runs[r], states_[r], references));
+    for (std::size_t r = 0; r < study.runs.size(); ++r) rows_.push_back(row_of(study, study.runs[r], states_[r], references));
   }
 
   const std::vector<RunState>& states() const { return states_; }
@@ -281,10 +277,10 @@ class Work {
  private:
   struct Job {
     std::size_t run;
-    bool repetition;                        ///< in a folder of its own, for the time only
+    bool repetition;  ///< in a folder of its own, for the time only
     std::unique_ptr<ChildProcess> child;
-    double cpu_limit = 0, wall_limit = 0;   ///< the one that it passed
-    double ended_at = 0;                    ///< wall time at which it was told to end
+    double cpu_limit = 0, wall_limit = 0;  ///< the one that it passed
+    double ended_at = 0;                   ///< wall time at which it was told to end
   };
 
   fs::path repetition_folder(std::size_t run) const { return states_[run].folder / "repetition"; }
@@ -444,8 +440,8 @@ std::string missing_metrics(const scene::Study& study, const output::StudyTable&
       nowhere += (nowhere.empty() ? "" : ", ") + metric + (names.size() > ledgers ? scene::suggestion(metric, names) : "");
     else if (!missing.empty())
       some += "note: " + study.errors[e].label + " is blank in " + std::to_string(missing.size()) + " of " +
-              std::to_string(done) + " runs, which have not come to it: " + missing[0] +
-              (missing.size() > 1 ? ", ..." : "") + "\n";
+              std::to_string(done) + " runs, which have not come to it: " + missing[0] + (missing.size() > 1 ? ", ..." : "") +
+              "\n";
   }
   if (!nowhere.empty())
     nowhere = "note: no run has the metric " + nowhere +
@@ -457,8 +453,9 @@ std::string missing_metrics(const scene::Study& study, const output::StudyTable&
 std::string other_programs(const output::StudyTable& table, const std::string& program) {
   std::size_t others = 0;
   for (const StudyRow& row : table.rows) others += !row.record.program.empty() && row.record.program != program;
-  return others == 0 ? "" : "note: " + count_of(others, "run") + (others == 1 ? " is" : " are") +
-                                " of another build of the program (column program); --again computes them again\n";
+  return others == 0 ? ""
+                     : "note: " + count_of(others, "run") + (others == 1 ? " is" : " are") +
+                           " of another build of the program (column program); --again computes them again\n";
 }
 
 std::string left_over_text(const std::vector<fs::path>& folders) {

@@ -46,9 +46,7 @@ RunTimes::RunTimes(const scene::Study& study, const std::vector<output::StudyRow
   median_ = all.empty() ? nan : all[all.size() / 2];
 }
 
-double RunTimes::expected(std::size_t run) const {
-  return weights_[run] * (std::isnan(factors_[run]) ? median_ : factors_[run]);
-}
+double RunTimes::expected(std::size_t run) const { return weights_[run] * (std::isnan(factors_[run]) ? median_ : factors_[run]); }
 
 StudyProgress::StudyProgress(std::size_t to_compute, bool quiet)
     : total_(to_compute), quiet_(quiet), terminal_(isatty(fileno(stdout)) != 0), start_(Clock::now()), last_(start_) {}

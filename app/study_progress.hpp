@@ -20,8 +20,8 @@ class RunTimes {
   double expected(std::size_t run) const;
 
  private:
-  std::vector<double> weights_;                     ///< h^-(dimension + 1); 1 without a resolution
-  std::vector<double> factors_;                     ///< by run: that of its curve, or NaN
+  std::vector<double> weights_;  ///< h^-(dimension + 1); 1 without a resolution
+  std::vector<double> factors_;  ///< by run: that of its curve, or NaN
   double median_;
 };
 

@@ -28,8 +28,7 @@ std::string settings_of(std::string resolved) {
 std::string what_changed(const std::string& before, const std::string& now, const std::string& file) {
   try {
     std::string keys;
-    const auto differing =
-        output::differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
+    const auto differing = output::differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
     for (std::size_t k = 0; k < differing.size() && k < 3; ++k) keys += (k > 0 ? ", " : "") + differing[k].key;
     if (differing.size() > 3) keys += ", ...";
     return "changed: " + (keys.empty() ? "threads, probes, output or comparison" : keys);
@@ -105,8 +104,7 @@ std::vector<RunState> run_states(const scene::Study& study, const fs::path& runs
   return states;
 }
 
-std::vector<fs::path> left_over(const std::vector<RunState>& states, const scene::Study& study,
-                                const fs::path& runs_folder) {
+std::vector<fs::path> left_over(const std::vector<RunState>& states, const scene::Study& study, const fs::path& runs_folder) {
   std::set<fs::path> known;
   for (const RunState& state : states) known.insert(state.folder);
   for (const scene::StudyRun& run : study.runs) known.insert(runs_folder / run.name);

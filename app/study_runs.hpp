@@ -16,9 +16,9 @@ namespace undex::app {
 /// What stands in the folder of a run.
 struct RunState {
   bool finished = false;  ///< need not be computed again: done, stopped by the numerics, or by a limit that still holds
-  std::string reason;  ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
+  std::string reason;     ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
   std::filesystem::path folder;
-  std::string status = "not run";         ///< see output::StudyRow
+  std::string status = "not run";  ///< see output::StudyRow
   std::string message;
   output::RunRecord record;
   std::vector<double> cpu_times, wall_times;

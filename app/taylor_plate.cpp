@@ -37,7 +37,8 @@ output::PlateHistories plate_in_one_dimension(const scene::Scene& scene, double 
   const int cells = refinement * int(std::ceil(300.0 * line.length / wave.length()));
   const double uniform = line.length / cells;
   const double last = std::min(uniform, line.plate_mass / wave.rest().density / (40.0 * refinement));
-  exact::Layer water{.law = scene.fluid.bodies[wave_body(scene)].material.law, .inner = -line.length, .outer = 0.0, .cells = cells};
+  exact::Layer water{
+      .law = scene.fluid.bodies[wave_body(scene)].material.law, .inner = -line.length, .outer = 0.0, .cells = cells};
   if (last < 0.99 * uniform) water.ratio = 1.0 / exact::grading(line.length, cells, last);
   water.start = [&wave, &line](double x) {
     const exact::PlaneWaveState s = wave.at(line.front - x);
@@ -70,7 +71,8 @@ output::NamedNumbers taylor_plate(const scene::Scene& scene, const Probes& probe
   metrics.insert(metrics.end(), exact.begin(), exact.end());
 
   const exact::PlaneWave wave = plane_wave(scene);
-  const exact::TaylorPlate theory{.peak = given.peak, .decay = given.decay, .impedance = wave.impedance(), .plate_mass = line.plate_mass};
+  const exact::TaylorPlate theory{
+      .peak = given.peak, .decay = given.decay, .impedance = wave.impedance(), .plate_mass = line.plate_mass};
   metrics.emplace_back("cavitation_acoustic_s", theory.cavitation_time() - line.front / wave.rest_sound());
   metrics.emplace_back("impulse_acoustic_pa_s", theory.impulse());
   const char* const names[] = {"cavitation_error", "impulse_error", "end_impulse_error"};

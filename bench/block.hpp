@@ -15,7 +15,7 @@ namespace undex::bench {
 
 /// A way to compute: the parts of the name and what they set.
 struct Variant {
-  std::string name;          ///< "riemann/wendland_c2_1.5"
+  std::string name;  ///< "riemann/wendland_c2_1.5"
   sph::Numerics numerics;
 };
 
@@ -53,9 +53,9 @@ inline std::vector<Variant> variants() {
 
 /// A cube of about `particles` particles, 1 mm apart.
 inline sph::Settings block(const sph::Numerics& numerics, double particles, int threads) {
-  constexpr double spacing = 1e-3;      // [m]
-  constexpr double pressure = 1e7;      // [Pa], of the water at rest: the wave's troughs do not cavitate
-  constexpr double amplitude = 5e-4;    // of the wave's density: about 1.2 MPa
+  constexpr double spacing = 1e-3;    // [m]
+  constexpr double pressure = 1e7;    // [Pa], of the water at rest: the wave's troughs do not cavitate
+  constexpr double amplitude = 5e-4;  // of the wave's density: about 1.2 MPa
   const double side = spacing * std::round(std::cbrt(particles));
   const Box cube{Vec3::Zero(), Vec3::Constant(side)};
   const materials::Fluid water = materials::find_fluid("water-tait").value();
@@ -77,8 +77,8 @@ inline sph::Settings block(const sph::Numerics& numerics, double particles, int 
   sph::Settings settings;
   settings.lattice.spacing = spacing;
   settings.lattice.jitter = 0.05;
-  settings.bodies = {{"water", Shape{cube, {}}, water, {}, Vec3::Zero(), {}, {}, {}, {}, false,
-                      std::make_shared<const sph::StartField>(wave)}};
+  settings.bodies = {
+      {"water", Shape{cube, {}}, water, {}, Vec3::Zero(), {}, {}, {}, {}, false, std::make_shared<const sph::StartField>(wave)}};
   settings.walls = {wall};
   settings.numerics = numerics;
   settings.numerics.threads = threads;

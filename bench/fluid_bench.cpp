@@ -129,8 +129,11 @@ void register_all(const std::string& filter) {
     double particles;
     bool by_name_only, scaling;
   };
-  const Size sizes[] = {{"50k", 50e3, false, false}, {"200k", 200e3, false, true}, {"1M", 1e6, false, false},
-                        {"4M", 4e6, true, false},    {"10M", 10e6, true, false}};
+  const Size sizes[] = {{"50k", 50e3, false, false},
+                        {"200k", 200e3, false, true},
+                        {"1M", 1e6, false, false},
+                        {"4M", 4e6, true, false},
+                        {"10M", 10e6, true, false}};
   const auto add = [](const std::string& name, auto function) {
     benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond);
   };

@@ -6,8 +6,8 @@
 
 namespace undex::bench {
 
-#define UNDEX_DECLARE_LEVEL(level)     \
-  namespace level {                    \
+#define UNDEX_DECLARE_LEVEL(level)       \
+  namespace level {                      \
   double fma_chains_double(long rounds); \
   double fma_chains_float(long rounds);  \
   }

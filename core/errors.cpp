@@ -10,8 +10,7 @@ std::string joined(const std::string& file, const std::vector<Finding>& findings
   for (const Finding& finding : findings) {
     if (!text.empty()) text += '\n';
     text += file;
-    if (finding.where.line > 0)
-      text += ':' + std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column);
+    if (finding.where.line > 0) text += ':' + std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column);
     text += ": " + finding.message;
   }
   return text;
@@ -27,8 +26,6 @@ std::vector<Finding> in_order(std::vector<Finding> findings) {
 }  // namespace
 
 SceneError::SceneError(std::string file, std::vector<Finding> findings)
-    : std::runtime_error(joined(file, in_order(findings))),
-      file_(std::move(file)),
-      findings_(in_order(std::move(findings))) {}
+    : std::runtime_error(joined(file, in_order(findings))), file_(std::move(file)), findings_(in_order(std::move(findings))) {}
 
 }  // namespace undex

@@ -117,9 +117,7 @@ double half_diagonal(const Vec3& size, int dimension) {
 
 Bounds common(const Bounds& a, const Bounds& b) { return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)}; }
 
-bool is_axis_aligned(const Primitive& shape) {
-  return std::holds_alternative<Box>(shape) || std::holds_alternative<Slab>(shape);
-}
+bool is_axis_aligned(const Primitive& shape) { return std::holds_alternative<Box>(shape) || std::holds_alternative<Slab>(shape); }
 
 /// Exact volume of boxes and slabs less boxes and slabs: the window is cut along every face, each piece is in or out.
 double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension) {
@@ -186,14 +184,11 @@ double share(const Shape& shape, const Vec3& center, const Vec3& size, double di
 
 }  // namespace
 
-double signed_distance(const Primitive& shape, const Vec3& x, int dimension) {
-  return std::visit(Distance{x, dimension}, shape);
-}
+double signed_distance(const Primitive& shape, const Vec3& x, int dimension) { return std::visit(Distance{x, dimension}, shape); }
 
 double signed_distance(const Shape& shape, const Vec3& x, int dimension) {
   double distance = signed_distance(shape.base, x, dimension);
-  for (const Primitive& removed : shape.removed)
-    distance = std::max(distance, -signed_distance(removed, x, dimension));
+  for (const Primitive& removed : shape.removed) distance = std::max(distance, -signed_distance(removed, x, dimension));
   return distance;
 }
 

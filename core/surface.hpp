@@ -12,8 +12,8 @@ namespace undex {
 /// The wet faces of a structure: bilinear quadrilaterals on nodes. Node order of a face is such that
 /// (x1 - x0) x (x3 - x0) points INTO the structure, away from the fluid.
 struct WetSurface {
-  std::vector<Vec3> nodes;                 ///< reference positions [m], one per wet node
-  std::vector<std::array<int, 4>> faces;   ///< indices into nodes
+  std::vector<Vec3> nodes;                ///< reference positions [m], one per wet node
+  std::vector<std::array<int, 4>> faces;  ///< indices into nodes
 };
 
 /// The image of a place or vector across symmetry planes through the origin; bit a of `axes`: across axis a.

@@ -14,13 +14,11 @@ class PassTimers {
  public:
   class Running {
    public:
-    Running(PassTimers& timers, std::size_t pass)
-        : timers_(timers), pass_(pass), start_(std::chrono::steady_clock::now()) {}
+    Running(PassTimers& timers, std::size_t pass) : timers_(timers), pass_(pass), start_(std::chrono::steady_clock::now()) {}
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;
     ~Running() {
-      timers_.passes_[pass_].second +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+      timers_.passes_[pass_].second += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
    private:

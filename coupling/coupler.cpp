@@ -37,9 +37,8 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& s
     const auto distance = [&](const auto& liquid) {
       return signed_distance(liquid.first->shape, surface.nodes[n], fluid.dimension);
     };
-    const auto& [body, stiffness] = *std::min_element(liquids.begin(), liquids.end(), [&](const auto& one, const auto& other) {
-      return distance(one) < distance(other);
-    });
+    const auto& [body, stiffness] = *std::min_element(
+        liquids.begin(), liquids.end(), [&](const auto& one, const auto& other) { return distance(one) < distance(other); });
     const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * stiffness));
     if (step < limit.step) {
       limit.step = step;

@@ -39,8 +39,8 @@ class Coupler {
   Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings);
 
   struct Window {
-    double step = 0;            ///< last fluid step [s]
-    sph::StepLimit limit;       ///< what the fluid allowed, or the wall's mass where that is less
+    double step = 0;                 ///< last fluid step [s]
+    sph::StepLimit limit;            ///< what the fluid allowed, or the wall's mass where that is less
     bool held_by_structure = false;  ///< the window was cut to the structure's step
     long fluid_steps = 0, structure_steps = 0;
   };

@@ -20,7 +20,7 @@ class Participant {
   virtual std::span<const Vec3> wet_accelerations() const = 0;
   /// Mass [kg] that the water must move to move each of them, at the start.
   virtual std::span<const double> wet_masses() const = 0;
-  virtual double time() const = 0;         ///< [s]
+  virtual double time() const = 0;  ///< [s]
   virtual long steps() const = 0;
   virtual double stable_step() const = 0;  ///< [s]
   /// Advances to t_end [s] while the wet nodes receive exactly `impulse` [N s] each.

@@ -15,8 +15,8 @@ namespace {
 /// A patch of surface over u and v, with the direction out of the body.
 struct Patch {
   std::function<Vec3(double u, double v)> place;
-  double low[2], high[2];      ///< range of u and v
-  double length[2];            ///< of the patch along each [m]
+  double low[2], high[2];  ///< range of u and v
+  double length[2];        ///< of the patch along each [m]
   std::function<Vec3(const Vec3&)> outward;
 };
 
@@ -76,8 +76,9 @@ std::vector<Patch> wet_patches(const sph::SolidBody& body, const sph::Settings& 
   const auto& mirror = settings.symmetry.axis;
   std::vector<std::string> names = body.wet.empty() ? sph::solid_faces(body.shape.base, settings.dimension) : body.wet;
   const auto refuse = [&](const std::string& name) {
-    return std::invalid_argument("solid '" + body.name + "': coupling.solids = \"surface\" cannot mesh the face '" + name +
-                                 "'; name the sides of a tube, a cylinder or a box in wet, or use coupling.solids = \"particles\"");
+    return std::invalid_argument(
+        "solid '" + body.name + "': coupling.solids = \"surface\" cannot mesh the face '" + name +
+        "'; name the sides of a tube, a cylinder or a box in wet, or use coupling.solids = \"particles\"");
   };
   std::vector<Patch> patches;
   for (const std::string& name : names) {
@@ -105,7 +106,8 @@ void mesh(const Patch& patch, double spacing, WetSurface& surface) {
   const int count[2] = {std::max(1, int(std::lround(patch.length[0] / spacing))),
                         std::max(1, int(std::lround(patch.length[1] / spacing)))};
   const int first = int(surface.nodes.size());
-  const bool closed = (patch.place(patch.low[0], patch.low[1]) - patch.place(patch.high[0], patch.low[1])).norm() < 1e-6 * spacing;
+  const bool closed =
+      (patch.place(patch.low[0], patch.low[1]) - patch.place(patch.high[0], patch.low[1])).norm() < 1e-6 * spacing;
   const int columns = closed ? count[0] : count[0] + 1;
   for (int j = 0; j <= count[1]; ++j)
     for (int i = 0; i < columns; ++i)
@@ -128,8 +130,7 @@ void mesh(const Patch& patch, double spacing, WetSurface& surface) {
 ParticleParticipant::ParticleParticipant(sph::Solids& solids) : solids_(solids) {
   const sph::Settings& settings = solids.settings();
   for (const sph::SolidBody& body : settings.solids)
-    for (const Patch& patch : wet_patches(body, settings))
-      mesh(patch, body.spacing.value_or(settings.lattice.spacing), surface_);
+    for (const Patch& patch : wet_patches(body, settings)) mesh(patch, body.spacing.value_or(settings.lattice.spacing), surface_);
   points_.resize(surface_.nodes.size());
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t n = 0; n < points_.size(); ++n) points_[n] = solids.locate(surface_.nodes[n]);

@@ -8,9 +8,7 @@
 namespace undex::coupling {
 namespace {
 
-std::array<double, 4> shape(double u, double v) {
-  return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
-}
+std::array<double, 4> shape(double u, double v) { return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}; }
 
 Vec3 blend(const std::array<int, 4>& face, const std::array<double, 4>& weight, std::span<const Vec3> nodal) {
   return weight[0] * nodal[face[0]] + weight[1] * nodal[face[1]] + weight[2] * nodal[face[2]] + weight[3] * nodal[face[3]];
@@ -55,8 +53,7 @@ sph::MovingWall WetWall::particles(bool free_slip) const {
   sph::MovingWall wall;
   wall.free_slip = free_slip;
   wall.volume = volume_;
-  for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse})
-    field->assign(points_.size(), Vec3::Zero());
+  for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(points_.size(), Vec3::Zero());
   const std::vector<Vec3> rest(surface_.nodes.size(), Vec3::Zero());
   move(surface_.nodes, rest, wall);
   return wall;

@@ -28,8 +28,9 @@ class WetWall {
   /// Dummy particles at the surface's reference position, at rest.
   sph::MovingWall particles(bool free_slip) const;
 
-  /// Places `wall`, of either kind, where the surface's nodes are. Velocity of a dummy particle is that of the surface point below the particle: beneath a
-  /// rotating surface the tangential part lacks depth times spin, the normal part (all that free slip sees) is exact.
+  /// Places `wall`, of either kind, where the surface's nodes are. Velocity of a dummy particle is that of the surface point
+  /// below the particle: beneath a rotating surface the tangential part lacks depth times spin, the normal part (all that free
+  /// slip sees) is exact.
   void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const;
 
   /// Adds the wall's impulses [N s] to the nodes by the same weights, and sets the wall's to zero.
@@ -39,7 +40,7 @@ class WetWall {
   struct Foot {
     int face = -1;
     std::array<double, 4> weight{};
-    double distance = 0;   ///< [m]
+    double distance = 0;  ///< [m]
   };
   Foot nearest(const Vec3& x) const;
   Vec3 position_of(const Foot& foot, std::span<const Vec3> node_positions) const;
@@ -47,13 +48,13 @@ class WetWall {
  private:
   struct Point {
     int face;
-    double depth;                     // [m] behind the surface
-    std::array<double, 4> weight;     // shape functions
+    double depth;                  // [m] behind the surface
+    std::array<double, 4> weight;  // shape functions
   };
   WetSurface surface_;
   std::array<bool, 3> symmetry_;
   std::vector<Point> points_;
-  std::vector<double> volume_;                  // [m^3]
+  std::vector<double> volume_;  // [m^3]
   std::size_t layers_ = 0;
 };
 

@@ -19,9 +19,7 @@ GasSample Noh::sample(double r, double t) const {
 }
 
 namespace {
-double unit_sphere(int dimension) {
-  return dimension == 1 ? 1.0 : (dimension == 2 ? 2.0 : 4.0) * std::numbers::pi;
-}
+double unit_sphere(int dimension) { return dimension == 1 ? 1.0 : (dimension == 2 ? 2.0 : 4.0) * std::numbers::pi; }
 }  // namespace
 
 Sedov::Sedov(int dimension, double gamma, double density, double energy)
@@ -30,15 +28,13 @@ Sedov::Sedov(int dimension, double gamma, double density, double energy)
     throw std::invalid_argument("Sedov: dimension must be 1, 2 or 3, got " + std::to_string(dimension));
   if (!(gamma > 1 && density > 0 && energy > 0))
     throw std::invalid_argument("Sedov: needs gamma > 1, density > 0 and energy > 0");
-  const OdeState<4> front{2.0 / (gamma + 1.0), std::log((gamma + 1.0) / (gamma - 1.0)),
-                          std::log(2.0 / (gamma + 1.0)), 0.0};
+  const OdeState<4> front{2.0 / (gamma + 1.0), std::log((gamma + 1.0) / (gamma - 1.0)), std::log(2.0 / (gamma + 1.0)), 0.0};
   const auto f = [this](double s, const OdeState<4>& y) { return slope(s, y); };
   // Inward an error of U/lambda, which tends to 1/gamma, grows as lambda^-d. The integration ends at lambda^d
   // = e^-12, where pressure is uniform to many digits; the energy within is added below.
   points_ = integrate<4>(f, 0.0, -12.0 / dimension, front, {1.0, 1.0, 1.0, 1.0}, 1e-13, 0.05);
   const double innermost = std::exp(points_.back().s);
-  const double rest =
-      std::exp(points_.back().y[2]) / (gamma - 1.0) * std::pow(innermost, dimension) / dimension;
+  const double rest = std::exp(points_.back().y[2]) / (gamma - 1.0) * std::pow(innermost, dimension) / dimension;
   const double integral = unit_sphere(dimension) * (-points_.back().y[3] + rest);
   const double exponent = 2.0 / (dimension + 2.0);
   alpha_ = integral * exponent * exponent;
@@ -50,25 +46,22 @@ OdeState<4> Sedov::slope(double s, const OdeState<4>& y) const {
   const double d = dimension_, relative = V - 1.0;
   const double Q = P / (G * lambda * lambda);
   // relative lnG' + U' = -(d - 1) V;  relative U' + Q lnP' = d V/2;  relative (lnP' - gamma lnG') = d.
-  const double U =
-      (relative * (0.5 * d * V) - Q * d + gamma_ * Q * (d - 1.0) * V) / (relative * relative - gamma_ * Q);
+  const double U = (relative * (0.5 * d * V) - Q * d + gamma_ * Q * (d - 1.0) * V) / (relative * relative - gamma_ * Q);
   const double lnG = (-(d - 1.0) * V - U) / relative;
   const double lnP = d / relative + gamma_ * lnG;
   const double kinetic = 0.5 * G * V * V * lambda * lambda, internal = P / (gamma_ - 1.0);
   return {U - V, lnG, lnP, (kinetic + internal) * std::pow(lambda, d)};
 }
 
-double Sedov::shock_radius(double t) const {
-  return std::pow(energy_ * t * t / (alpha_ * density_), 1.0 / (dimension_ + 2.0));
-}
+double Sedov::shock_radius(double t) const { return std::pow(energy_ * t * t / (alpha_ * density_), 1.0 / (dimension_ + 2.0)); }
 
 GasSample Sedov::sample(double r, double t) const {
   const double front = shock_radius(t), lambda = r / front;
   if (lambda > 1.0) return {density_, 0.0, 0.0, 0.0};
   const double speed = 2.0 / (dimension_ + 2.0) * front / t;
   const double s = std::max(std::log(std::max(lambda, 1e-300)), points_.back().s);
-  const auto after = std::lower_bound(points_.begin(), points_.end(), s,
-                                      [](const OdePoint<4>& p, double value) { return p.s > value; });
+  const auto after =
+      std::lower_bound(points_.begin(), points_.end(), s, [](const OdePoint<4>& p, double value) { return p.s > value; });
   const OdePoint<4>& from = after == points_.begin() ? *after : *(after - 1);
   OdeState<4> error;
   const auto f = [this](double x, const OdeState<4>& state) { return slope(x, state); };
@@ -88,9 +81,7 @@ double TaylorPlate::velocity(double t) const {
   return scale * share;
 }
 
-double TaylorPlate::wall_pressure(double t) const {
-  return 2.0 * peak * std::exp(-t / decay) - impedance * velocity(t);
-}
+double TaylorPlate::wall_pressure(double t) const { return 2.0 * peak * std::exp(-t / decay) - impedance * velocity(t); }
 
 double TaylorPlate::cavitation_time() const {
   const double z = ratio();

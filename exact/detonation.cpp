@@ -38,13 +38,11 @@ TaylorWave::Sample TaylorWave::sample(double r, double t) const {
     const auto& p = products_.parameters();
     return {p.rho0, 0.0, 0.0, p.E0, false};
   }
-  const auto made = [](const IsentropeState& s, double u) {
-    return Sample{s.density, u, s.pressure, s.energy, true};
-  };
+  const auto made = [](const IsentropeState& s, double u) { return Sample{s.density, u, s.pressure, s.energy, true}; };
   if (dimension_ == 1) {
     if (x <= core_.sound) return made(core_, 0.0);
-    const IsentropeState s = isentrope_.find([](const IsentropeState& f) { return f.riemann + f.sound; },
-                                             x - front_.particle_speed);
+    const IsentropeState s =
+        isentrope_.find([](const IsentropeState& f) { return f.riemann + f.sound; }, x - front_.particle_speed);
     return made(s, front_.particle_speed + s.riemann);
   }
   if (x <= points_.back().y[0]) return made(core_, 0.0);

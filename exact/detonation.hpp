@@ -27,7 +27,7 @@ class TaylorWave {
 
   struct Sample {
     double density, velocity, pressure, energy;  ///< [kg/m^3], [m/s], [Pa], [J/kg]
-    bool burned;  ///< false ahead of the front: explosive at rest, zero pressure, E0
+    bool burned;                                 ///< false ahead of the front: explosive at rest, zero pressure, E0
   };
   /// State at radius r [m] and time t [s] since initiation at r = 0.
   Sample sample(double r, double t) const;

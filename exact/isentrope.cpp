@@ -15,10 +15,8 @@ constexpr double tolerance = 1e-13;
 double barotropic_energy(const materials::FluidLaw& law, double density, double otherwise) {
   return std::visit(
       [&](const auto& l) {
-        if constexpr (std::remove_cvref_t<decltype(l)>::uses_energy)
-          return otherwise;
-        else
-          return l.barotropic_energy(density);
+        if constexpr (std::remove_cvref_t<decltype(l)>::uses_energy) return otherwise;
+        else return l.barotropic_energy(density);
       },
       law);
 }
@@ -26,8 +24,7 @@ double barotropic_energy(const materials::FluidLaw& law, double density, double 
 /// Lowest pressure of a law that cavitates; minus infinity of others.
 double floor_pressure(const materials::FluidLaw& law) {
   if (const auto* tait = std::get_if<materials::TaitWater>(&law))
-    if (tait->parameters().cavitation != materials::Cavitation::none)
-      return tait->evaluate(tait->floor_density(), 0.0).pressure;
+    if (tait->parameters().cavitation != materials::Cavitation::none) return tait->evaluate(tait->floor_density(), 0.0).pressure;
   if (const auto* water = std::get_if<materials::MieGruneisenWater>(&law))
     if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
   return -std::numeric_limits<double>::infinity();
@@ -135,12 +132,9 @@ ShockState shock_to(const materials::FluidLaw& law, double density, double energ
   const double start = true_pressure_sound(law, density, energy).pressure;
   const bool with_energy = materials::uses_energy(law);
   const auto energy_at = [&](double rho) {
-    return with_energy ? energy + 0.5 * (pressure + start) * (1.0 / density - 1.0 / rho)
-                       : barotropic_energy(law, rho, 0.0);
+    return with_energy ? energy + 0.5 * (pressure + start) * (1.0 / density - 1.0 / rho) : barotropic_energy(law, rho, 0.0);
   };
-  const auto too_thin = [&](double rho) {
-    return true_pressure_sound(law, rho, energy_at(rho)).pressure < pressure;
-  };
+  const auto too_thin = [&](double rho) { return true_pressure_sound(law, rho, energy_at(rho)).pressure < pressure; };
   double low = density, high = density;
   while (too_thin(high)) {
     low = high;
@@ -148,8 +142,8 @@ ShockState shock_to(const materials::FluidLaw& law, double density, double energ
     // A void that closes may start from next to nothing.
     if (high > 1e3 * std::max(density, 1e3)) {
       std::ostringstream message;
-      message << "shock_to: the law does not reach " << pressure << " Pa from density " << density
-              << " kg/m^3 and energy " << energy << " J/kg";
+      message << "shock_to: the law does not reach " << pressure << " Pa from density " << density << " kg/m^3 and energy "
+              << energy << " J/kg";
       throw std::domain_error(message.str());
     }
   }

@@ -15,9 +15,7 @@ namespace undex::exact {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw std::invalid_argument("Lagrangian1D: " + message);
-}
+[[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument("Lagrangian1D: " + message); }
 
 template <class... Parts>
 std::string text(const Parts&... parts) {
@@ -33,19 +31,16 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
     refuse(text("the Courant number must lie between 0 and 1, got ", options.courant));
   if (!(options.inner_mass >= 0 && options.outer_mass >= 0))
     refuse(text("the masses of plates must not be negative, got ", options.inner_mass, " and ", options.outer_mass, " kg/m^2"));
-  if (dimension > 1 && !(layers.front().inner >= 0))
-    refuse(text("radii begin at 0, got ", layers.front().inner, " m"));
+  if (dimension > 1 && !(layers.front().inner >= 0)) refuse(text("radii begin at 0, got ", layers.front().inner, " m"));
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const Layer& layer = layers[k];
     if (!(layer.outer > layer.inner))
-      refuse(
-          text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
+      refuse(text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
     if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
     if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
     if (!layer.start && !(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
     if (k > 0 && std::abs(layer.inner - layers[k - 1].outer) > 1e-12 * std::abs(layer.inner))
-      refuse(text("layer ", k, " begins at ", layer.inner, " m, but the one before it ends at ",
-                  layers[k - 1].outer, " m"));
+      refuse(text("layer ", k, " begins at ", layer.inner, " m, but the one before it ends at ", layers[k - 1].outer, " m"));
     if (layer.burn && !std::holds_alternative<materials::Jwl>(layer.law))
       refuse(text("layer ", k, " burns, so its law must be that of detonation products (Jwl)"));
   }
@@ -64,8 +59,8 @@ double first_width(double length, int cells, double ratio) {
 
 double grading(double length, int cells, double first) {
   if (!(first > 0 && first < length && cells >= 2))
-    throw std::invalid_argument(text("grading: needs at least two cells and a first one shorter than ",
-                                     length, " m, got ", cells, " and ", first, " m"));
+    throw std::invalid_argument(
+        text("grading: needs at least two cells and a first one shorter than ", length, " m, got ", cells, " and ", first, " m"));
   double low = 1e-3, high = 1e3;  // the first width falls with the ratio
   for (double middle = 1.0; middle > low && middle < high; middle = std::sqrt(low * high))
     (first_width(length, cells, middle) > first ? low : high) = middle;
@@ -99,10 +94,8 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
       start_middle_.push_back(0.5 * (from + to));
       e_.push_back(std::visit(
           [&](const auto& law) {
-            if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy)
-              return state.energy;
-            else
-              return law.barotropic_energy(state.density);
+            if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy) return state.energy;
+            else return law.barotropic_energy(state.density);
           },
           layer.law));
     }
@@ -164,15 +157,14 @@ double Lagrangian1D::middle(int cell) const {
 }
 
 double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound) const {
-  if ((outer ? outer_ : inner_) == Boundary::free)
-    return outer ? options_.outer_pressure : options_.inner_pressure;
+  if ((outer ? outer_ : inner_) == Boundary::free) return outer ? options_.outer_pressure : options_.inner_pressure;
   if (outer) return outer_start_pressure_ + rho * sound * (u - outer_start_velocity_);
   return inner_start_pressure_ - rho * sound * (u - inner_start_velocity_);
 }
 
 void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,
-                             const std::vector<double>& rho, const std::vector<double>& e,
-                             std::vector<double>& p, std::vector<double>& q) {
+                             const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p,
+                             std::vector<double>& q) {
   for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
     const Block& block = blocks_[k];
     const int stop = std::min(block.end, end);
@@ -181,8 +173,7 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
       for (int i = block.begin; i < stop; ++i) {
         // The part that burns by compression is not kept when the zone expands: kept, every oscillation of
         // the unburned charge, however small, would burn some more of it, until it detonates of itself.
-        const double burned =
-            burn->fraction(Vec3(start_middle_[i], 0.0, 0.0), time, rho[i] / start_density_[i]);
+        const double burned = burn->fraction(Vec3(start_middle_[i], 0.0, 0.0), time, rho[i] / start_density_[i]);
         const auto state = materials::burning(products, rho[i], e[i], burned);
         p[i] = state.pressure;
         c_[i] = viscous_sound_[i] = state.sound_speed;
@@ -216,8 +207,8 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
       const double above = i + 1 < n ? slope_[i + 1] / slope_[i] : 1.0;
       psi = std::max(0.0, std::min({0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0}));
     }
-    q[i] = (1.0 - psi) * rho[i] * closing *
-           (options_.linear_viscosity * viscous_sound_[i] + options_.quadratic_viscosity * closing);
+    q[i] =
+        (1.0 - psi) * rho[i] * closing * (options_.linear_viscosity * viscous_sound_[i] + options_.quadratic_viscosity * closing);
   }
 }
 
@@ -237,12 +228,10 @@ double Lagrangian1D::stable_step() const {
   for (int i = 0; i < end; ++i) {
     const double total = p_[i] + q_[i];
     const double below =
-        i > 0 ? p_[i - 1] + q_[i - 1]
-              : (inner_ == Boundary::rigid ? total : outside_pressure(false, u_[0], rho_[0], c_[0]));
+        i > 0 ? p_[i - 1] + q_[i - 1] : (inner_ == Boundary::rigid ? total : outside_pressure(false, u_[0], rho_[0], c_[0]));
     double width = r_[i + 1] - r_[i];
     if (i > 0) width = std::min(width, r_[i] - r_[i - 1]);
-    stiffest =
-        std::max(stiffest, mean_area(r_[i], r_[i]) * std::abs(total - below) / (node_mass_[i] * width));
+    stiffest = std::max(stiffest, mean_area(r_[i], r_[i]) * std::abs(total - below) / (node_mass_[i] * width));
   }
   if (end == cells() && outer_ != Boundary::rigid) {
     const double above = outside_pressure(true, u_[end], rho_[end - 1], c_[end - 1]);
@@ -291,9 +280,9 @@ void Lagrangian1D::step(double dt) {
   const auto healthy = [&] {
     for (int i = 0; i < cell_end; ++i)
       if (!(rho_new_[i] > 0.0 && std::isfinite(rho_new_[i]) && std::isfinite(e_new_[i])))
-        throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: cell ", i,
-                                 " of layer ", cell_layer_[i], " near r = ", r_[i], " m has density ",
-                                 rho_new_[i], " kg/m^3 and energy ", e_new_[i], " J/kg; dt = ", dt, " s"));
+        throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: cell ", i, " of layer ",
+                                 cell_layer_[i], " near r = ", r_[i], " m has density ", rho_new_[i], " kg/m^3 and energy ",
+                                 e_new_[i], " J/kg; dt = ", dt, " s"));
   };
   healthy();
   pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
@@ -355,8 +344,8 @@ void Lagrangian1D::advance(double t_end) {
       last_step_ = dt;
     }
     if (!(dt > 0.0) || (!last && time_ + dt == time_))
-      throw NumericalStop(text("one-dimensional solver, step ", steps_, ", t = ", time_,
-                               " s: the stable step has fallen to ", dt, " s"));
+      throw NumericalStop(
+          text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: the stable step has fallen to ", dt, " s"));
     step(dt);
     if (last) time_ = t_end;
   }
@@ -391,8 +380,8 @@ double Lagrangian1D::barotropic_heat() const {
 
 PointState Lagrangian1D::at(double radius) const {
   if (!(radius >= r_.front() && radius <= r_.back()))
-    throw std::out_of_range(text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(),
-                                 " to ", r_.back(), " m"));
+    throw std::out_of_range(
+        text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(), " to ", r_.back(), " m"));
   const int above = static_cast<int>(std::upper_bound(r_.begin(), r_.end(), radius) - r_.begin());
   const int cell = std::clamp(above - 1, 0, cells() - 1);
   const double share = (radius - r_[cell]) / (r_[cell + 1] - r_[cell]);
@@ -402,15 +391,13 @@ PointState Lagrangian1D::at(double radius) const {
   const double other_centre = 0.5 * (r_[other] + r_[other + 1]);
   const double weight = other == cell ? 0.0 : (radius - centre) / (other_centre - centre);
   const auto between = [&](const std::vector<double>& f) { return f[cell] + weight * (f[other] - f[cell]); };
-  return {between(rho_), u_[cell] + share * (u_[cell + 1] - u_[cell]), between(e_), between(p_),
-          cell_layer_[cell]};
+  return {between(rho_), u_[cell] + share * (u_[cell + 1] - u_[cell]), between(e_), between(p_), cell_layer_[cell]};
 }
 
 IntervalIntegral Lagrangian1D::integral(double from, double to, int layer) const {
   IntervalIntegral sum;
   if (!(to > from) || to <= r_.front() || from >= r_.back()) return sum;
-  const int first = std::clamp(
-      static_cast<int>(std::upper_bound(r_.begin(), r_.end(), from) - r_.begin()) - 1, 0, cells() - 1);
+  const int first = std::clamp(static_cast<int>(std::upper_bound(r_.begin(), r_.end(), from) - r_.begin()) - 1, 0, cells() - 1);
   for (int i = first; i < cells() && r_[i] < to; ++i) {
     if (layer >= 0 && cell_layer_[i] != layer) continue;
     const double cell_volume = volume_to(r_[i + 1]) - volume_to(r_[i]);

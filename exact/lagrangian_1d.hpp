@@ -80,10 +80,10 @@ struct PointState {
 
 /// Integrals over an interval of radius; per area [m^2] in planar, per length [m] in cylindrical symmetry.
 struct IntervalIntegral {
-  double volume = 0.0;          ///< [m^3]
-  double mass = 0.0;            ///< [kg]
-  double momentum = 0.0;        ///< sum of mass times OUTWARD velocity [kg m/s]; in a sphere not a vector sum
-  double kinetic_energy = 0.0;  ///< [J]
+  double volume = 0.0;           ///< [m^3]
+  double mass = 0.0;             ///< [kg]
+  double momentum = 0.0;         ///< sum of mass times OUTWARD velocity [kg m/s]; in a sphere not a vector sum
+  double kinetic_energy = 0.0;   ///< [J]
   double internal_energy = 0.0;  ///< [J]
   double pressure_volume = 0.0;  ///< integral of the pressure over the volume [J]
 
@@ -93,9 +93,7 @@ struct IntervalIntegral {
   double pressure() const { return pressure_volume / volume; }  ///< mean by volume [Pa]
   /// Specific energy [J/kg] which, together with the kinetic energy of the mean velocity, holds all the
   /// energy of the interval: the internal energy to give to one body that replaces it.
-  double energy_with_lost_motion() const {
-    return (internal_energy + kinetic_energy) / mass - 0.5 * velocity() * velocity();
-  }
+  double energy_with_lost_motion() const { return (internal_energy + kinetic_energy) / mass - 0.5 * velocity() * velocity(); }
 };
 
 class Lagrangian1D {
@@ -103,8 +101,8 @@ class Lagrangian1D {
   /// dimension: 1 planar, 2 cylindrical, 3 spherical. The layers touch one another, from the inside out. A
   /// node between layers of different velocity starts with their mean by mass. Throws std::invalid_argument
   /// with the values on layers that do not fit.
-  Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary inner = Boundary::rigid,
-               Boundary outer = Boundary::rigid, const Lagrangian1DOptions& options = {});
+  Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary inner = Boundary::rigid, Boundary outer = Boundary::rigid,
+               const Lagrangian1DOptions& options = {});
 
   /// Steps until exactly t_end [s]; does nothing when t_end has passed. Throws NumericalStop
   /// (core/errors.hpp) naming cell and time when a cell turns inside out or a state is not finite.
@@ -161,9 +159,8 @@ class Lagrangian1D {
   double middle(int cell) const;                   // radius that halves the cell's volume [m]
   double outside_pressure(bool outer, double u, double rho, double sound) const;
   /// Pressure and artificial pressure of the cells below `end`.
-  void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,
-                 const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p,
-                 std::vector<double>& q);
+  void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u, const std::vector<double>& rho,
+                 const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);
   double stable_step() const;
   void step(double dt);
   void update_active();

@@ -16,8 +16,7 @@ using OdeState = std::array<double, N>;
 
 /// One step of length h from y at s; the estimated error of each component goes to `error`.
 template <std::size_t N, class Slope>
-OdeState<N> runge_kutta_step(const Slope& slope, double s, const OdeState<N>& y, double h,
-                             OdeState<N>& error) {
+OdeState<N> runge_kutta_step(const Slope& slope, double s, const OdeState<N>& y, double h, OdeState<N>& error) {
   constexpr double a[6][6] = {{1.0 / 5},
                               {3.0 / 40, 9.0 / 40},
                               {44.0 / 45, -56.0 / 15, 32.0 / 9},
@@ -25,8 +24,7 @@ OdeState<N> runge_kutta_step(const Slope& slope, double s, const OdeState<N>& y,
                               {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
                               {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
   constexpr double c[6] = {1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};
-  constexpr double d[7] = {71.0 / 57600,      0.0,          -71.0 / 16695, 71.0 / 1920,
-                           -17253.0 / 339200, 22.0 / 525.0, -1.0 / 40};
+  constexpr double d[7] = {71.0 / 57600, 0.0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525.0, -1.0 / 40};
   std::array<OdeState<N>, 7> k;
   k[0] = slope(s, y);
   OdeState<N> stage = y;
@@ -57,8 +55,7 @@ struct OdePoint {
 /// std::runtime_error when the step has become too small to advance.
 template <std::size_t N, class Slope, class Stop>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
-                                   const OdeState<N>& scale, double tolerance, double largest_step,
-                                   const Stop& stop) {
+                                   const OdeState<N>& scale, double tolerance, double largest_step, const Stop& stop) {
   std::vector<OdePoint<N>> points{{begin, start}};
   const double sign = end < begin ? -1.0 : 1.0;
   double h = std::min(largest_step, 1e-4 * std::abs(end - begin));
@@ -87,8 +84,7 @@ std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end,
 template <std::size_t N, class Slope>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
                                    const OdeState<N>& scale, double tolerance, double largest_step) {
-  return integrate(slope, begin, end, start, scale, tolerance, largest_step,
-                   [](const OdePoint<N>&) { return false; });
+  return integrate(slope, begin, end, start, scale, tolerance, largest_step, [](const OdePoint<N>&) { return false; });
 }
 
 }  // namespace undex::exact

@@ -28,9 +28,9 @@ PlaneWave::PlaneWave(const materials::FluidLaw& law, double density, double ener
   sound_ = state.sound_speed;
   length_ = sound_ * decay;
   const double impedance = density * sound_;
-  points_ = integrate<3>([this](double p, const OdeState<3>& y) { return slope(p, y); }, rest_.pressure,
-                         rest_.pressure + peak, {density, 0.0, energy},
-                         {density, peak / impedance, peak * peak / (impedance * impedance)}, 1e-12, 0.1 * peak);
+  points_ =
+      integrate<3>([this](double p, const OdeState<3>& y) { return slope(p, y); }, rest_.pressure, rest_.pressure + peak,
+                   {density, 0.0, energy}, {density, peak / impedance, peak * peak / (impedance * impedance)}, 1e-12, 0.1 * peak);
 }
 
 OdeState<3> PlaneWave::slope(double p, const OdeState<3>& y) const {
@@ -41,8 +41,8 @@ OdeState<3> PlaneWave::slope(double p, const OdeState<3>& y) const {
 PlaneWaveState PlaneWave::at(double behind) const {
   if (behind < 0) return rest_;
   const double p = rest_.pressure + peak_ * std::exp(-behind / length_);
-  const auto above = std::upper_bound(points_.begin(), points_.end(), p,
-                                      [](double value, const OdePoint<3>& point) { return value < point.s; });
+  const auto above =
+      std::upper_bound(points_.begin(), points_.end(), p, [](double value, const OdePoint<3>& point) { return value < point.s; });
   const OdePoint<3>& from = above == points_.begin() ? *above : *(above - 1);
   OdeState<3> error;
   const OdeState<3> y =

@@ -30,9 +30,9 @@ class PlaneWave {
   /// Throws std::invalid_argument unless density, peak and decay are positive and the fluid at rest has no voids.
   PlaneWave(const materials::FluidLaw& law, double density, double energy, double peak, double decay);
 
-  double rest_sound() const { return sound_; }                ///< [m/s]
+  double rest_sound() const { return sound_; }                 ///< [m/s]
   double impedance() const { return rest_.density * sound_; }  ///< of the fluid at rest [kg/(m^2 s)]
-  double length() const { return length_; }                   ///< over which the wave falls by e [m]
+  double length() const { return length_; }                    ///< over which the wave falls by e [m]
   const PlaneWaveState& rest() const { return rest_; }
   /// State just behind the front.
   PlaneWaveState front() const { return at(0.0); }

@@ -36,9 +36,7 @@ RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& rig
   }
   const double apart = right.velocity - left.velocity;
   // Speed by which the two wave curves miss each other at a pressure; rises with the pressure.
-  const auto excess = [&](double p) {
-    return reach(0, p).velocity_change + reach(1, p).velocity_change + apart;
-  };
+  const auto excess = [&](double p) { return reach(0, p).velocity_change + reach(1, p).velocity_change + apart; };
 
   double low = std::max(lowest[0], lowest[1]);
   cavity_ = escape[0] + escape[1] + apart > 0.0 && excess(low) > 0.0;
@@ -46,11 +44,9 @@ RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& rig
     pressure_ = low;
   } else {
     double high = std::max({start_pressure_[0], start_pressure_[1], low});
-    const double rho_c = std::max(side_[0].density * isentrope_[0]->start().sound,
-                                  side_[1].density * isentrope_[1]->start().sound);
-    for (double add = rho_c * std::abs(apart) + 1e-6 * std::abs(high) + 1e-300; excess(high) < 0.0;
-         add *= 2.0)
-      high += add;
+    const double rho_c =
+        std::max(side_[0].density * isentrope_[0]->start().sound, side_[1].density * isentrope_[1]->start().sound);
+    for (double add = rho_c * std::abs(apart) + 1e-6 * std::abs(high) + 1e-300; excess(high) < 0.0; add *= 2.0) high += add;
     for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
       (excess(middle) < 0.0 ? low : high) = middle;
     pressure_ = high;
@@ -84,12 +80,11 @@ RiemannSample RiemannSolution::sample(double xi) const {
   if (cavity_ && xi > star_[0].velocity && xi < star_[1].velocity) return {0.0, xi, pressure_, 0.0, -1};
   const int k = xi < velocity() ? 0 : 1;
   const double sign = outward(k);
-  if (sign * (xi - wave_[k].head) >= 0.0)
-    return {side_[k].density, side_[k].velocity, start_pressure_[k], start_energy_[k], k};
+  if (sign * (xi - wave_[k].head) >= 0.0) return {side_[k].density, side_[k].velocity, start_pressure_[k], start_energy_[k], k};
   if (sign * (xi - wave_[k].tail) <= 0.0) return star_[k];
   // In the fan: x/t = u + sign c with u = u_start + sign w.
-  const IsentropeState s = isentrope_[k]->find([](const IsentropeState& f) { return f.riemann + f.sound; },
-                                               sign * (xi - side_[k].velocity));
+  const IsentropeState s =
+      isentrope_[k]->find([](const IsentropeState& f) { return f.riemann + f.sound; }, sign * (xi - side_[k].velocity));
   return {s.density, side_[k].velocity + sign * s.riemann, s.pressure, s.energy, k};
 }
 

@@ -34,16 +34,15 @@ Extent kept(Mistakes& mistakes, double low, double high, int cells, int axis, co
             const char* cells_name) {
   Extent extent{low, high, cells};
   const char* name = axis_names[axis];
-  mistakes.require(std::isfinite(low) && std::isfinite(high) && low < high, "extent along ", name, " runs from ", low,
-                   " to ", high, " m; the lower end must be below the upper one");
+  mistakes.require(std::isfinite(low) && std::isfinite(high) && low < high, "extent along ", name, " runs from ", low, " to ",
+                   high, " m; the lower end must be below the upper one");
   mistakes.require(cells >= 1, cells_name, " = ", cells, "; at least 1 cell is needed");
   if (!has(symmetry_axes, axis) || low >= 0.0) return extent;
   mistakes.require(high > 0.0, "the symmetry plane ", name, " = 0 keeps nothing of a body from ", low, " to ", high,
                    " m; move the body to ", name, " >= 0 or drop the symmetry axis ", axis);
   if (high <= 0.0) return extent;
-  mistakes.require(std::abs(low + high) <= 1e-9 * (high - low), "the body runs from ", low, " to ", high, " m along ",
-                   name, ", so it is not symmetric about ", name, " = 0; make low = -high, or drop the symmetry axis ",
-                   axis);
+  mistakes.require(std::abs(low + high) <= 1e-9 * (high - low), "the body runs from ", low, " to ", high, " m along ", name,
+                   ", so it is not symmetric about ", name, " = 0; make low = -high, or drop the symmetry axis ", axis);
   mistakes.require(cells % 2 == 0, cells_name, " = ", cells, " cannot be halved by the symmetry plane ", name,
                    " = 0; give an even number");
   extent.low = 0.0;
@@ -133,8 +132,8 @@ Blocks build_blocks(const TubeMesh& mesh, const std::vector<int>& symmetry_axes,
   mistakes.throw_if_any();
   mistakes.require(mesh.inner_radius > 0.0, "inner radius = ", mesh.inner_radius,
                    " m; a tube needs a bore, use a rod for a solid bar");
-  mistakes.require(mesh.outer_radius > mesh.inner_radius && std::isfinite(mesh.outer_radius), "outer radius = ",
-                   mesh.outer_radius, " m must exceed the inner radius = ", mesh.inner_radius, " m");
+  mistakes.require(mesh.outer_radius > mesh.inner_radius && std::isfinite(mesh.outer_radius),
+                   "outer radius = ", mesh.outer_radius, " m must exceed the inner radius = ", mesh.inner_radius, " m");
   mistakes.require(mesh.cells_through >= 1, "cells_through = ", mesh.cells_through, "; at least 1 cell is needed");
   mistakes.require(mesh.cells_around >= 8 && mesh.cells_around % 4 == 0, "cells_around = ", mesh.cells_around,
                    "; give the cells of the full turn, a multiple of 4 and at least 8");
@@ -150,15 +149,13 @@ Blocks build_blocks(const TubeMesh& mesh, const std::vector<int>& symmetry_axes,
   for (int k = 0; k <= along.cells; ++k)
     for (int j = 0; j < lines; ++j)
       for (int i = 0; i <= through; ++i) {
-        const double r = i == through ? mesh.outer_radius
-                                      : mesh.inner_radius + (mesh.outer_radius - mesh.inner_radius) * i / through;
+        const double r =
+            i == through ? mesh.outer_radius : mesh.inner_radius + (mesh.outer_radius - mesh.inner_radius) * i / through;
         const auto [c, s] = in_quarter(j % quarter, quarter);
         blocks.vertices.push_back(
             placed(turned({r * c, r * s}, turn.first_quarter + j / quarter), along.at(k), mesh.axis, mesh.center));
       }
-  const auto vertex = [&](int i, int j, int k) {
-    return static_cast<unsigned>((k * lines + j % lines) * (through + 1) + i);
-  };
+  const auto vertex = [&](int i, int j, int k) { return static_cast<unsigned>((k * lines + j % lines) * (through + 1) + i); };
   add_block(blocks, {through, around, along.cells}, vertex, {0, 1, -1, -1, along.cut ? -1 : 3, 2});
   return blocks;
 }
@@ -185,9 +182,7 @@ Blocks build_blocks(const PlateMesh& mesh, const std::vector<int>& symmetry_axes
   for (int k = 0; k <= n[2]; ++k)
     for (int j = 0; j <= n[1]; ++j)
       for (int i = 0; i <= n[0]; ++i) blocks.vertices.emplace_back(extent[0].at(i), extent[1].at(j), extent[2].at(k));
-  const auto vertex = [&](int i, int j, int k) {
-    return static_cast<unsigned>((k * (n[1] + 1) + j) * (n[0] + 1) + i);
-  };
+  const auto vertex = [&](int i, int j, int k) { return static_cast<unsigned>((k * (n[1] + 1) + j) * (n[0] + 1) + i); };
   add_block(blocks, n, vertex, faces);
   return blocks;
 }
@@ -231,8 +226,8 @@ Blocks build_blocks(const RodMesh& mesh, const std::vector<int>& symmetry_axes, 
   std::vector<Point> points;
   const auto number = [&](const Point& p) {
     const double unit = 1e-7 * mesh.radius;
-    const auto [found, is_new] = section.try_emplace({std::llround(p[0] / unit), std::llround(p[1] / unit)},
-                                                     static_cast<unsigned>(points.size()));
+    const auto [found, is_new] =
+        section.try_emplace({std::llround(p[0] / unit), std::llround(p[1] / unit)}, static_cast<unsigned>(points.size()));
     if (is_new) points.push_back(p);
     return found->second;
   };
@@ -243,19 +238,16 @@ Blocks build_blocks(const RodMesh& mesh, const std::vector<int>& symmetry_axes, 
       for (int i = 0; i <= core; ++i) cores.back().push_back(number(turned(core_point(i, j), quarter)));
     rings.emplace_back();
     for (int step = 0; step <= 2 * core; ++step)
-      for (int layer = 0; layer <= ring; ++layer)
-        rings.back().push_back(number(turned(ring_point(layer, step), quarter)));
+      for (int layer = 0; layer <= ring; ++layer) rings.back().push_back(number(turned(ring_point(layer, step), quarter)));
   }
   const unsigned per_layer = static_cast<unsigned>(points.size());
   for (int k = 0; k <= along.cells; ++k)
     for (const Point& p : points) blocks.vertices.push_back(placed(p, along.at(k), mesh.axis, mesh.center));
   for (std::size_t quarter = 0; quarter < cores.size(); ++quarter) {
     add_block(blocks, {core, core, along.cells},
-              [&](int i, int j, int k) { return k * per_layer + cores[quarter][j * (core + 1) + i]; },
-              {-1, -1, -1, -1, low, 1});
+              [&](int i, int j, int k) { return k * per_layer + cores[quarter][j * (core + 1) + i]; }, {-1, -1, -1, -1, low, 1});
     add_block(blocks, {ring, 2 * core, along.cells},
-              [&](int i, int j, int k) { return k * per_layer + rings[quarter][j * (ring + 1) + i]; },
-              {-1, 0, -1, -1, low, 1});
+              [&](int i, int j, int k) { return k * per_layer + rings[quarter][j * (ring + 1) + i]; }, {-1, 0, -1, -1, low, 1});
   }
   return blocks;
 }

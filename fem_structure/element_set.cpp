@@ -16,15 +16,11 @@ double sum(const std::vector<double>& values) { return std::accumulate(values.be
 
 }  // namespace
 
-ElementSet::ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity,
-                       double quadratic_viscosity)
-    : material_(material),
-      linear_viscosity_(linear_viscosity),
-      quadratic_viscosity_(quadratic_viscosity),
-      cells_(grid.cells) {
+ElementSet::ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity)
+    : material_(material), linear_viscosity_(linear_viscosity), quadratic_viscosity_(quadratic_viscosity), cells_(grid.cells) {
   const std::size_t n = cells_.size();
-  for (auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_,
-                      &compression_rate_, &critical_step_, &cell_mass_})
+  for (auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,
+                      &critical_step_, &cell_mass_})
     field->assign(n, 0.0);
   corner_force_.assign(24 * n, 0.0);
   mode_.resize(24 * n);
@@ -105,8 +101,7 @@ void ElementSet::follow_frequency(std::size_t c, const CellVectors& x, double mo
   set_critical_step(c, sound, bulk);
 }
 
-void ElementSet::linear_force(std::span<const Vec3> positions, std::span<const Vec3> displacements,
-                            std::span<Vec3> force) const {
+void ElementSet::linear_force(std::span<const Vec3> positions, std::span<const Vec3> displacements, std::span<Vec3> force) const {
   std::vector<double> corner_force(24 * cells_.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     CellVectors x, u, f;
@@ -160,8 +155,7 @@ void ElementSet::set_critical_step(std::size_t c, double sound, double bulk) {
   const double stiffening = std::max(1.0, std::sqrt(bulk / frequency_bulk_[c]));
   const double frequency = frequency_[c] * stiffening * (1.0 + strain_since_[c]);
   const double length = 2.0 * sound / frequency_[c];
-  const double damping =
-      linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c] / sound;
+  const double damping = linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c] / sound;
   critical_step_[c] = 2.0 / frequency * (std::sqrt(1.0 + damping * damping) - damping);
 }
 

@@ -46,16 +46,16 @@ inline void invert(const Lanes (&a)[3][3], Lanes (&inverse)[3][3], Lanes& determ
 }
 
 /// Nodal forces of a stress field (times quadrature weights): f_I = sum_q w sigma grad N_I.
-inline void spread(const Lanes (&stress)[6], const Lanes (&inverse)[3][3], const Lanes& weight,
-                   const ReferenceCell& reference, double (&force)[3][8]) {
+inline void spread(const Lanes (&stress)[6], const Lanes (&inverse)[3][3], const Lanes& weight, const ReferenceCell& reference,
+                   double (&force)[3][8]) {
   constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
   for (int i = 0; i < 3; ++i) {
     Lanes pulled[3];
     for (int j = 0; j < 3; ++j)
       for (int q = 0; q < 8; ++q)
-        pulled[j][q] = weight[q] * (stress[component[i][0]][q] * inverse[j][0][q] +
-                                    stress[component[i][1]][q] * inverse[j][1][q] +
-                                    stress[component[i][2]][q] * inverse[j][2][q]);
+        pulled[j][q] =
+            weight[q] * (stress[component[i][0]][q] * inverse[j][0][q] + stress[component[i][1]][q] * inverse[j][1][q] +
+                         stress[component[i][2]][q] * inverse[j][2][q]);
     for (int node = 0; node < 8; ++node) {
       Lanes sum;
       for (int q = 0; q < 8; ++q)
@@ -75,8 +75,7 @@ inline double intact_share(const Lanes& damage) {
 
 }  // namespace
 
-Elements::Elements(const Grid& grid, const materials::Solid& material, double linear_viscosity,
-                   double quadratic_viscosity)
+Elements::Elements(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity)
     : ElementSet(grid, material, linear_viscosity, quadratic_viscosity), reference_(grid.reference) {
   const std::size_t n = cells_.size();
   for (auto& component : deviator_) component.assign(8 * n, 0.0);
@@ -100,8 +99,7 @@ Elements::Elements(const Grid& grid, const materials::Solid& material, double li
   find_first_steps(grid);
 }
 
-bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
-                            double dt) {
+bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements, double dt) {
   double x[3][8], u[3][8];
   collect(positions, cells_[c], x);
   collect(displacements, cells_[c], u);
@@ -117,8 +115,8 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int q = 0; q < 8; ++q)
-        gradient[i][j][q] = change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] +
-                            change[i][2][q] * inverse[2][j][q];
+        gradient[i][j][q] =
+            change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] + change[i][2][q] * inverse[2][j][q];
   bool sound_geometry = true;
   for (int q = 0; q < 8; ++q) sound_geometry &= determinant[q] > 0.0;
 
@@ -223,8 +221,8 @@ void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Mod
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int q = 0; q < 8; ++q)
-        gradient[i][j][q] = change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] +
-                            change[i][2][q] * inverse[2][j][q];
+        gradient[i][j][q] =
+            change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] + change[i][2][q] * inverse[2][j][q];
   for (int q = 0; q < 8; ++q) {
     weight[q] = reference_.weight[q] * determinant[q];
     volume += weight[q];
@@ -271,8 +269,8 @@ Mat3 Elements::stress(std::size_t cell, int q) const {
 std::size_t Elements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& component : deviator_) values += component.size();
-  for (const auto* field : {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &viscous_pressure_, &energy_,
-                            &volume_})
+  for (const auto* field :
+       {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &viscous_pressure_, &energy_, &volume_})
     values += field->size();
   return shared_memory_bytes() + values * sizeof(double);
 }

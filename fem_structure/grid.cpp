@@ -46,8 +46,7 @@ void create(Triangulation& triangulation, const Blocks& blocks) {
   vertices.reserve(blocks.vertices.size());
   for (const Vec3& x : blocks.vertices) vertices.push_back(point(x));
   std::vector<dealii::CellData<3>> cells(blocks.cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].end());
+  for (std::size_t c = 0; c < cells.size(); ++c) cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].end());
   triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 
   std::map<std::array<unsigned, 4>, int> name_of;
@@ -77,8 +76,8 @@ void read_gmsh(Triangulation& triangulation, const GmshMesh& mesh, const std::st
     reader.attach_triangulation(triangulation);
     reader.read_msh(file);
   } catch (const std::exception& error) {
-    throw std::invalid_argument(who + ": '" + mesh.path + "' is not a hexahedral gmsh mesh (format 2 or 4, ASCII): " +
-                                first_lines(error.what()));
+    throw std::invalid_argument(who + ": '" + mesh.path +
+                                "' is not a hexahedral gmsh mesh (format 2 or 4, ASCII): " + first_lines(error.what()));
   }
   if (triangulation.n_active_cells() == 0 || !triangulation.all_reference_cells_are_hyper_cube())
     throw std::invalid_argument(who + ": '" + mesh.path +
@@ -103,8 +102,8 @@ double smallest_jacobian(const Grid& grid, const std::array<int, 8>& cell) {
     const Vec3& x = grid.nodes[cell[i]];
     return (grid.nodes[cell[j]] - x).cross(grid.nodes[cell[k]] - x).dot(grid.nodes[cell[l]] - x);
   };
-  double smallest = std::min({corner(0, 1, 3, 4), corner(1, 2, 0, 5), corner(2, 3, 1, 6), corner(3, 0, 2, 7),
-                              corner(4, 7, 5, 0), corner(5, 4, 6, 1), corner(6, 5, 7, 2), corner(7, 6, 4, 3)});
+  double smallest = std::min({corner(0, 1, 3, 4), corner(1, 2, 0, 5), corner(2, 3, 1, 6), corner(3, 0, 2, 7), corner(4, 7, 5, 0),
+                              corner(5, 4, 6, 1), corner(6, 5, 7, 2), corner(7, 6, 4, 3)});
   for (int q = 0; q < 8; ++q) {
     Mat3 jacobian = Mat3::Zero();
     for (int i = 0; i < 8; ++i)
@@ -164,8 +163,7 @@ Mesher::Mesher(const Settings& settings) : held_(std::make_unique<Held>()) {
     values.reinit(cell);
     for (unsigned i = 0; i < 8; ++i) {
       grid.nodal_volume[c][i] = 0.0;
-      for (unsigned q = 0; q < rule.size(); ++q)
-        grid.nodal_volume[c][i] += values.shape_value(to_dealii[i], q) * values.JxW(q);
+      for (unsigned q = 0; q < rule.size(); ++q) grid.nodal_volume[c][i] += values.shape_value(to_dealii[i], q) * values.JxW(q);
     }
     for (const auto& face : cell->face_iterators()) {
       if (!face->at_boundary()) continue;
@@ -189,11 +187,9 @@ Mesher& Mesher::operator=(Mesher&&) noexcept = default;
 const Grid& Mesher::grid() const { return held_->grid; }
 
 std::optional<Place> Mesher::containing_cell(const Vec3& reference_position) const {
-  if (!held_->cache)
-    held_->cache = std::make_unique<dealii::GridTools::Cache<3>>(held_->triangulation, held_->mapping);
+  if (!held_->cache) held_->cache = std::make_unique<dealii::GridTools::Cache<3>>(held_->triangulation, held_->mapping);
   try {
-    const auto [cell, unit] =
-        dealii::GridTools::find_active_cell_around_point(*held_->cache, point(reference_position));
+    const auto [cell, unit] = dealii::GridTools::find_active_cell_around_point(*held_->cache, point(reference_position));
     if (cell.state() != dealii::IteratorState::valid) return std::nullopt;
     Place place{cell->active_cell_index(), {}, 0.0};
     for (unsigned d = 0; d < 3; ++d) {

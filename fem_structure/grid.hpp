@@ -23,9 +23,9 @@ struct ReferenceCell {
 
 /// Hexahedra and their named boundary faces.
 struct Grid {
-  std::vector<Vec3> nodes;                                   ///< reference positions [m]
-  std::vector<std::array<int, 8>> cells;                     ///< VTK hexahedron order
-  std::vector<std::array<double, 8>> nodal_volume;           ///< integral of each shape function over its cell [m^3]
+  std::vector<Vec3> nodes;                          ///< reference positions [m]
+  std::vector<std::array<int, 8>> cells;            ///< VTK hexahedron order
+  std::vector<std::array<double, 8>> nodal_volume;  ///< integral of each shape function over its cell [m^3]
   /// Boundary quadrilaterals by name; (x1 - x0) x (x3 - x0) points into the structure.
   std::map<std::string, std::vector<std::array<int, 4>>> faces;
   ReferenceCell reference;

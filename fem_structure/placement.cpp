@@ -35,10 +35,8 @@ Projection project(const Grid& grid, const std::array<int, 8>& cell, const Vec3&
       for (int d = 0; d < 3; ++d) {
         double slope = 1.0;
         for (int e = 0; e < 3; ++e) {
-          if (e == d)
-            slope *= corner[i][e] ? 1.0 : -1.0;
-          else
-            slope *= corner[i][e] ? unit[e] : 1.0 - unit[e];
+          if (e == d) slope *= corner[i][e] ? 1.0 : -1.0;
+          else slope *= corner[i][e] ? unit[e] : 1.0 - unit[e];
         }
         jacobian.col(d) += slope * grid.nodes[cell[i]];
       }

@@ -17,7 +17,7 @@ namespace undex::fem {
 /// cuts away has no name left.
 struct TubeMesh {
   int axis = 2;
-  Vec3 center = Vec3::Zero();  ///< a point on the axis [m]
+  Vec3 center = Vec3::Zero();                                    ///< a point on the axis [m]
   double inner_radius = 0, outer_radius = 0, low = 0, high = 0;  ///< [m]
   int cells_through = 2, cells_around = 64, cells_along = 64;
 };
@@ -25,7 +25,7 @@ struct TubeMesh {
 /// the rim (at least 2; the full turn then has 4 cells per core cell side). Faces: "side", "low", "high".
 struct RodMesh {
   int axis = 2;
-  Vec3 center = Vec3::Zero();  ///< a point on the axis [m]
+  Vec3 center = Vec3::Zero();            ///< a point on the axis [m]
   double radius = 0, low = 0, high = 0;  ///< [m]
   int cells_radial = 6, cells_along = 32;
 };
@@ -62,12 +62,12 @@ struct Settings {
   std::string name = "structure";
   Mesh mesh;
   ElementKind element = ElementKind::hexahedron;
-  int points_through = 3;                ///< of shells: Gauss points through the thickness of a cell, 2 to 10
+  int points_through = 3;  ///< of shells: Gauss points through the thickness of a cell, 2 to 10
   materials::Solid material;
   std::vector<Support> supports;
-  std::vector<int> symmetry_axes;        ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh
-                                         ///< from gmsh must already be that part)
-  std::vector<std::string> wet_faces;    ///< faces that touch water
+  std::vector<int> symmetry_axes;      ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh
+                                       ///< from gmsh must already be that part)
+  std::vector<std::string> wet_faces;  ///< faces that touch water
   std::vector<PressureLoad> loads;
   std::vector<RigidPlane> planes;
   Vec3 initial_velocity = Vec3::Zero();  ///< [m/s]

@@ -76,7 +76,8 @@ int thickness_direction(const Mesh& mesh, const std::string& who) {
       if (plate->high[d] - plate->low[d] < plate->high[thinnest] - plate->low[thinnest]) thinnest = d;
     return thinnest;
   }
-  throw std::invalid_argument(who + ": shell elements need a wall whose thickness direction is known, that of a tube or a "
+  throw std::invalid_argument(who +
+                              ": shell elements need a wall whose thickness direction is known, that of a tube or a "
                               "plate; use hexahedra for a rod or a gmsh mesh");
 }
 
@@ -344,9 +345,9 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
     for (int k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i)
         for (int q = 0; q < 8; ++q)
-          m[k][i][q] = geometry.weight[b][q] * (inverse[k][0][q] * stress[b][component[0][i]][q] +
-                                                inverse[k][1][q] * stress[b][component[1][i]][q] +
-                                                inverse[k][2][q] * stress[b][component[2][i]][q]);
+          m[k][i][q] = geometry.weight[b][q] *
+                       (inverse[k][0][q] * stress[b][component[0][i]][q] + inverse[k][1][q] * stress[b][component[1][i]][q] +
+                        inverse[k][2][q] * stress[b][component[2][i]][q]);
     const auto contravariant = [&](int k, int l, int q) {
       return m[k][0][q] * inverse[l][0][q] + m[k][1][q] * inverse[l][1][q] + m[k][2][q] * inverse[l][2][q];
     };
@@ -404,8 +405,7 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
   }
 }
 
-bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
-                                 double dt) {
+bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements, double dt) {
   CellVectors x_cell, u_cell, x, u;
   collect(positions, cells_[c], x_cell);
   turn_in(x_cell, x);
@@ -440,8 +440,7 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
     const int filled = std::min(8, 4 * (layers_ - 2 * b));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        for (int q = 0; q < 8; ++q)
-          gradient[i][j][q] = strain[b][component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
+        for (int q = 0; q < 8; ++q) gradient[i][j][q] = strain[b][component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
         for (int q = filled; q < 8; ++q) gradient[i][j][q] = 0.0;
       }
     for (int q = 0; q < 8; ++q) {
@@ -493,10 +492,11 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
     const double step = opened[layer] / layer_weight[layer], old_dilatation = dilatation_[k], old_pressure = pressure_[k];
     if (!(std::abs(step) < 1.0)) return false;
     dilatation_[k] *= (1.0 + 0.5 * step) / (1.0 - 0.5 * step);
-    const double density = material_.rho0 / dilatation_[k], reference_volume = layer_weight[layer] / (0.5 * (old_dilatation + dilatation_[k]));
+    const double density = material_.rho0 / dilatation_[k],
+                 reference_volume = layer_weight[layer] / (0.5 * (old_dilatation + dilatation_[k]));
     const double swelling = opened[layer] / reference_volume;  // per reference volume, as the energies below
-    const double other = energy_[k] + deviatoric_work[layer] / reference_volume -
-                         0.5 * (old_viscous + viscous_pressure_[c]) * swelling;
+    const double other =
+        energy_[k] + deviatoric_work[layer] / reference_volume - 0.5 * (old_viscous + viscous_pressure_[c]) * swelling;
     auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[k] / material_.rho0);
     // Failed points carry no tension, as in the hexahedron.
     const auto carried = [&](double law) {

@@ -1,10 +1,10 @@
 // Solid shells: eight-node hexahedra for thin walls, one cell through the thickness, several quadrature points in it.
 //
 // Metric changes of a step are taken where they do not lock: transverse shear at the middles of the mid-surface's edges
-// (Dvorkin, Bathe 1984, doi 10.1108/eb023562), thickness strain at its corners (Betsch, Stein 1995), and membrane and bending strain at the 2x2 points in the plane. One enhanced strain, along the
-// normal and linear through the thickness, lets bending change the thickness as Poisson's ratio asks (Hauptmann,
-// Schweizerhof 1998; all in docs/references.bib). Pressure: one per layer of
-// points, from the layer's mean dilatation. The nodal force is the exact derivative of the power of these strains.
+// (Dvorkin, Bathe 1984, doi 10.1108/eb023562), thickness strain at its corners (Betsch, Stein 1995), and membrane and bending
+// strain at the 2x2 points in the plane. One enhanced strain, along the normal and linear through the thickness, lets bending
+// change the thickness as Poisson's ratio asks (Hauptmann, Schweizerhof 1998; all in docs/references.bib). Pressure: one per
+// layer of points, from the layer's mean dilatation. The nodal force is the exact derivative of the power of these strains.
 #pragma once
 
 #include <array>

@@ -49,8 +49,8 @@ void check(const Settings& settings, const Grid& grid) {
   for (const std::string& face : settings.wet_faces) known(face, "wet_faces");
   for (const PressureLoad& load : settings.loads) {
     known(load.face, "a pressure load");
-    mistakes.require(!load.time.empty() && load.time.size() == load.pressure.size(), "the pressure load on '",
-                     load.face, "' has ", load.time.size(), " times and ", load.pressure.size(),
+    mistakes.require(!load.time.empty() && load.time.size() == load.pressure.size(), "the pressure load on '", load.face,
+                     "' has ", load.time.size(), " times and ", load.pressure.size(),
                      " pressures; give at least one, and as many of each");
     mistakes.require(std::adjacent_find(load.time.begin(), load.time.end(), std::greater_equal<>()) == load.time.end(),
                      "the times of the pressure load on '", load.face, "' must increase");
@@ -61,11 +61,10 @@ void check(const Settings& settings, const Grid& grid) {
                    settings.linear_viscosity, " and ", settings.quadratic_viscosity,
                    " must not be negative; 0.06 and 1.2 are usual, 0 switches one off");
   const materials::Solid& material = settings.material;
-  mistakes.require(material.rho0 > 0.0 && material.shear_modulus > 0.0, "material '", material.name,
-                   "' has density ", material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus,
-                   " Pa; both must be positive");
-  mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ",
-                   material.heat_capacity, " J/kg/K; it must be positive");
+  mistakes.require(material.rho0 > 0.0 && material.shear_modulus > 0.0, "material '", material.name, "' has density ",
+                   material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus, " Pa; both must be positive");
+  mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ", material.heat_capacity,
+                   " J/kg/K; it must be positive");
   mistakes.require(settings.initial_velocity.allFinite(), "the initial velocity is not finite");
   mistakes.require(settings.points_through >= 2 && settings.points_through <= ShellElements::most_layers,
                    "points_through = ", settings.points_through, "; give 2 to ", ShellElements::most_layers);
@@ -210,8 +209,7 @@ struct Structure::Implementation {
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
-    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force})
-      field->assign(n, Vec3::Zero());
+    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force}) field->assign(n, Vec3::Zero());
     take_wet_surface();
     first_critical_step = elements->critical_step();
     find_load_force();
@@ -273,8 +271,7 @@ struct Structure::Implementation {
   /// dt^2/8 m a.a, by which half the product of the neighbouring half-step velocities falls short of m v.v/2.
   double held_back(double dt) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < acceleration.size(); ++i)
-      sum += elements->nodal_mass()[i] * acceleration[i].squaredNorm();
+    for (std::size_t i = 0; i < acceleration.size(); ++i) sum += elements->nodal_mass()[i] * acceleration[i].squaredNorm();
     return dt * dt / 8.0 * sum;
   }
 
@@ -343,9 +340,9 @@ struct Structure::Implementation {
   std::string description_of(std::size_t cell, const std::string& what) const {
     std::ostringstream text;
     text << "structure '" << settings.name << "', step " << steps << ", time " << time << " s: cell " << cell
-         << ", reference position " << written(center(cell)) << ", now near " << written(position[grid.cells[cell][0]])
-         << ", " << what << "; the step of " << last_step << " s was set by " << owner()
-         << "; refine the mesh there, or lower courant (" << settings.courant << ")";
+         << ", reference position " << written(center(cell)) << ", now near " << written(position[grid.cells[cell][0]]) << ", "
+         << what << "; the step of " << last_step << " s was set by " << owner() << "; refine the mesh there, or lower courant ("
+         << settings.courant << ")";
     return text.str();
   }
 
@@ -363,14 +360,12 @@ struct Structure::Implementation {
 
   void advance(double t_end, std::span<const Vec3> impulse) {
     if (!impulse.empty() && impulse.size() != wet_nodes.size())
-      throw std::invalid_argument("structure '" + settings.name + "': " + std::to_string(impulse.size()) +
-                                  " impulses for " + std::to_string(wet_nodes.size()) +
-                                  " wet nodes; give one per node of wet_surface(), or none");
+      throw std::invalid_argument("structure '" + settings.name + "': " + std::to_string(impulse.size()) + " impulses for " +
+                                  std::to_string(wet_nodes.size()) + " wet nodes; give one per node of wet_surface(), or none");
     const double interval = t_end - time;
     if (!(interval > 0.0) || !std::isfinite(interval)) {
       std::ostringstream text;
-      text << "structure '" << settings.name << "': cannot advance from " << time << " s to " << t_end
-           << " s; give a later time";
+      text << "structure '" << settings.name << "': cannot advance from " << time << " s to " << t_end << " s; give a later time";
       throw std::invalid_argument(text.str());
     }
     for (std::size_t i = 0; i < wet_nodes.size(); ++i)
@@ -469,8 +464,7 @@ FieldView Structure::fields() const {
   view.displacement.resize(node_count());
   for (std::size_t i = 0; i < node_count(); ++i) view.displacement[i] = self_->position[i] - self_->grid.nodes[i];
   view.cells = self_->grid.cells;
-  for (auto* field : {&view.pressure, &view.von_mises, &view.plastic_strain, &view.temperature})
-    field->assign(cell_count(), 0.0);
+  for (auto* field : {&view.pressure, &view.von_mises, &view.plastic_strain, &view.temperature}) field->assign(cell_count(), 0.0);
   for (std::size_t c = 0; c < cell_count(); ++c) {
     view.pressure[c] = elements.pressure(c);
     for (int q = 0; q < elements.points_per_cell(); ++q) {

@@ -31,8 +31,8 @@ struct Energies {
 
 /// Fields at the cells' centres (averages over the quadrature points) and at the nodes, for output and probes.
 struct FieldView {
-  std::vector<Vec3> position, displacement, velocity;            ///< per node
-  std::vector<std::array<int, 8>> cells;                         ///< VTK hexahedron order
+  std::vector<Vec3> position, displacement, velocity;                    ///< per node
+  std::vector<std::array<int, 8>> cells;                                 ///< VTK hexahedron order
   std::vector<double> pressure, von_mises, plastic_strain, temperature;  ///< per cell
 };
 
@@ -69,10 +69,10 @@ class Structure {
   /// The cell that sets stable_step(), in words for a log line.
   std::string stable_step_owner() const;
 
-  /// Advances to time t_end in equal steps (more, and shorter, where the mesh tightens on the way), none longer than stable_step(), while the wet nodes receive exactly
-  /// `impulse` [N s] each (in wet_surface() order; may be empty), spread evenly over the interval. Throws NumericalStop
-  /// (core/errors.hpp) naming step, time, cell and position when an element inverts or a value is not finite; nodes then
-  /// stand where the failed step began.
+  /// Advances to time t_end in equal steps (more, and shorter, where the mesh tightens on the way), none longer than
+  /// stable_step(), while the wet nodes receive exactly `impulse` [N s] each (in wet_surface() order; may be empty), spread
+  /// evenly over the interval. Throws NumericalStop (core/errors.hpp) naming step, time, cell and position when an element
+  /// inverts or a value is not finite; nodes then stand where the failed step began.
   void advance(double t_end, std::span<const Vec3> impulse);
 
   Energies energies() const;
@@ -91,7 +91,7 @@ class Structure {
   Probe locate(const Vec3& reference_position) const;
   struct ProbeValues {
     Vec3 position, displacement, velocity;
-    Mat3 stress;              ///< Cauchy [Pa], tension positive
+    Mat3 stress;  ///< Cauchy [Pa], tension positive
     double plastic_strain, temperature;
   };
   ProbeValues read(const Probe& probe) const;

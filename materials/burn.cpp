@@ -39,16 +39,13 @@ ChapmanJouguet chapman_jouguet(const Jwl& products) {
     s.sound_speed = products.evaluate(rho, s.energy).sound_speed;
     return s;
   };
-  const auto supersonic = [&](const ChapmanJouguet& s) {
-    return s.density * s.sound_speed < p.rho0 * s.detonation_speed;
-  };
+  const auto supersonic = [&](const ChapmanJouguet& s) { return s.density * s.sound_speed < p.rho0 * s.detonation_speed; };
 
   double low = 1.001 * p.rho0, high = low;
   while (supersonic(hugoniot(high))) {
     low = high;
     high *= 1.02;
-    if (high > 5.0 * p.rho0)
-      throw std::domain_error("JWL set has no Chapman-Jouguet state below five times its initial density");
+    if (high > 5.0 * p.rho0) throw std::domain_error("JWL set has no Chapman-Jouguet state below five times its initial density");
   }
   for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
     (supersonic(hugoniot(middle)) ? low : high) = middle;

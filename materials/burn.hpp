@@ -16,13 +16,11 @@ namespace undex::materials {
 /// would sit at zero pressure in front of the products, offer no resistance, and fine spacings would pile
 /// zones up ahead of the front to many times the detonation pressure.
 struct ProgrammedBurn {
-  Vec3 origin = Vec3::Zero();  ///< initiation point [m]
-  double D = 0.0;              ///< detonation speed [m/s], > 0 unless instantaneous
-  double width = 0.0;  ///< distance over which the burn fraction rises [m]; 0: at once. Some spacings
-  double cj_compression =
-      0.0;  ///< rho_CJ/rho0 [-]: burn by compression is complete there; <= 1 switches it off
-  bool instantaneous =
-      false;  ///< everything has burned from the start (constant-volume burn), wherever it is
+  Vec3 origin = Vec3::Zero();   ///< initiation point [m]
+  double D = 0.0;               ///< detonation speed [m/s], > 0 unless instantaneous
+  double width = 0.0;           ///< distance over which the burn fraction rises [m]; 0: at once. Some spacings
+  double cj_compression = 0.0;  ///< rho_CJ/rho0 [-]: burn by compression is complete there; <= 1 switches it off
+  bool instantaneous = false;   ///< everything has burned from the start (constant-volume burn), wherever it is
 
   /// Time [s] at which the front reaches x [m]; 0 when instantaneous.
   double lighting_time(const Vec3& x) const { return instantaneous ? 0.0 : (x - origin).norm() / D; }

@@ -131,8 +131,7 @@ PlasticStep newton_return(const Isotherm<Law>& law, double shear_modulus, double
 
 PlasticStep return_with(const Elastic&, double, double, double, double, double) { return {1.0, 0.0, 0.0}; }
 
-PlasticStep return_with(const LinearHardening& law, double shear_modulus, double trial, double plastic_strain, double,
-                        double) {
+PlasticStep return_with(const LinearHardening& law, double shear_modulus, double trial, double plastic_strain, double, double) {
   const double start = law.Y0 + law.H * plastic_strain;
   if (trial <= start) return {1.0, 0.0, 0.0};
   const double increment = (trial - start) / (3.0 * shear_modulus + law.H);
@@ -172,10 +171,10 @@ double hardening(const FlowStress& law, double plastic_strain, double rate, doub
   return flow(law, plastic_strain, rate, temperature).hardening;
 }
 
-PlasticStep radial_return(const FlowStress& law, double shear_modulus, double trial, double plastic_strain,
-                          double temperature, double dt) {
-  return std::visit(
-      [&](const auto& each) { return return_with(each, shear_modulus, trial, plastic_strain, temperature, dt); }, law);
+PlasticStep radial_return(const FlowStress& law, double shear_modulus, double trial, double plastic_strain, double temperature,
+                          double dt) {
+  return std::visit([&](const auto& each) { return return_with(each, shear_modulus, trial, plastic_strain, temperature, dt); },
+                    law);
 }
 
 }  // namespace undex::materials

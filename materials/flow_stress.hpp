@@ -41,8 +41,7 @@ struct ZerilliArmstrong {
   double n = 1.0;             ///< [-]
   double rate0 = 1e-3;        ///< the rate of a tensile test [1/s]: the law itself falls to C0 at rest
 };
-using FlowStress =
-    std::variant<Elastic, LinearHardening, JohnsonCook, PowerHardening, CowperSymonds, ZerilliArmstrong>;
+using FlowStress = std::variant<Elastic, LinearHardening, JohnsonCook, PowerHardening, CowperSymonds, ZerilliArmstrong>;
 
 /// Flow stress with its slopes.
 struct Flow {
@@ -67,7 +66,7 @@ struct PlasticStep {
 /// with the flow stress at the END of the step: trial - 3 G d_eps = sigma_Y(eps_p + d_eps, d_eps/dt, T), solved to
 /// round-off. (Eq. 20 divides by 3G the excess over a flow stress known beforehand: the same thing for perfect
 /// plasticity.) Temperature [K] is held over the step. dt must be positive where the law depends on the rate.
-PlasticStep radial_return(const FlowStress& law, double shear_modulus, double trial, double plastic_strain,
-                          double temperature, double dt);
+PlasticStep radial_return(const FlowStress& law, double shear_modulus, double trial, double plastic_strain, double temperature,
+                          double dt);
 
 }  // namespace undex::materials

@@ -17,9 +17,7 @@ double IsentropicMixture::liquid_stretch(double p) const {
 
 double IsentropicMixture::vapour_stretch(double p) const { return std::pow(p / c_.p_sat, -1.0 / c_.gamma); }
 
-double IsentropicMixture::density(double p) const {
-  return mass_ / (1.0 + liquid_stretch(p) + k_ * vapour_stretch(p));
-}
+double IsentropicMixture::density(double p) const { return mass_ / (1.0 + liquid_stretch(p) + k_ * vapour_stretch(p)); }
 
 double IsentropicMixture::pressure(double rho) const {
   // L(y) - 1 + k y = r: the left side rises with y, ever more slowly. From below the root Newton's steps climb to it without

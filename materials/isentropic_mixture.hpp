@@ -12,11 +12,11 @@ namespace undex::materials {
 class IsentropicMixture {
  public:
   struct Constants {
-    double p_sat;                    ///< [Pa]
-    double liquid_density, N;        ///< of the liquid at p_sat [kg/m^3], and its exponent
-    double stiffness;                ///< B - A [Pa]
-    double vapour_density, gamma;    ///< of the vapour at p_sat [kg/m^3], and its exponent
-    double initial_void;             ///< void fraction where the liquid begins to cavitate
+    double p_sat;                  ///< [Pa]
+    double liquid_density, N;      ///< of the liquid at p_sat [kg/m^3], and its exponent
+    double stiffness;              ///< B - A [Pa]
+    double vapour_density, gamma;  ///< of the vapour at p_sat [kg/m^3], and its exponent
+    double initial_void;           ///< void fraction where the liquid begins to cavitate
   };
 
   IsentropicMixture() = default;
@@ -36,7 +36,7 @@ class IsentropicMixture {
   double vapour_stretch(double p) const;  ///< y(p)
 
   Constants c_{};
-  double k_ = 0, mass_ = 0;               ///< [-], rho_l + k rho_g [kg/m^3]
+  double k_ = 0, mass_ = 0;  ///< [-], rho_l + k rho_g [kg/m^3]
 };
 
 }  // namespace undex::materials

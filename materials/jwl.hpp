@@ -42,9 +42,8 @@ inline PressureSound Jwl::evaluate(double rho, double energy) const {
   const double first = p_.A * std::exp(-p_.R1 * volume), second = p_.B * std::exp(-p_.R2 * volume);
   const double first_factor = 1.0 - p_.omega * eta / p_.R1, second_factor = 1.0 - p_.omega * eta / p_.R2;
   const double pressure = first * first_factor + second * second_factor + p_.omega * rho * energy;
-  const double slope =
-      first * (first_factor * p_.R1 * volume * volume - p_.omega / p_.R1) +
-      second * (second_factor * p_.R2 * volume * volume - p_.omega / p_.R2);  // d/d eta, no energy
+  const double slope = first * (first_factor * p_.R1 * volume * volume - p_.omega / p_.R1) +
+                       second * (second_factor * p_.R2 * volume * volume - p_.omega / p_.R2);  // d/d eta, no energy
   const double sound_squared = slope / p_.rho0 + p_.omega * energy + p_.omega * pressure / rho;
   return {pressure, guarded_sound_speed(sound_squared)};
 }

@@ -33,12 +33,10 @@ Fluid barotropic(const char* name, const BarotropicGas::Parameters& p, const cha
 std::vector<Fluid> make_fluids() {
   std::vector<Fluid> sets;
   sets.push_back(tait("water-tait", Cavitation::schmidt,
-                      UNDEX_PAPER
-                      ", eqs 28-33 and the constants printed with them; the mixture starts at the Tait "
-                      "density of p_sat, where the printed eq. 32 would jump"));
+                      UNDEX_PAPER ", eqs 28-33 and the constants printed with them; the mixture starts at the Tait "
+                                  "density of p_sat, where the printed eq. 32 would jump"));
   sets.push_back(tait("water-tait-cutoff", Cavitation::cutoff,
-                      UNDEX_PAPER
-                      ", eq. 28 with its constants; plain cut-off at p_floor in place of the mixture"));
+                      UNDEX_PAPER ", eq. 28 with its constants; plain cut-off at p_floor in place of the mixture"));
 
   TaitWater::Parameters isentropic;
   isentropic.cavitation = Cavitation::isentropic;
@@ -50,20 +48,18 @@ std::vector<Fluid> make_fluids() {
                   TaitWater(isentropic), isentropic.rho0});
 
   const MieGruneisenWater::Parameters steinberg;
-  sets.push_back(
-      {"water-steinberg",
-       "Form: " UNDEX_PAPER ", eq. 27; coefficients after Steinberg 1987, recalled, not read; supported by a "
-       "cubic pressure fit read in a public code (2.19, 9.224, 8.767 GPa), 2-4 % off at mu = 0.1 and 0.2",
-       MieGruneisenWater(steinberg), steinberg.rho0});
+  sets.push_back({"water-steinberg",
+                  "Form: " UNDEX_PAPER ", eq. 27; coefficients after Steinberg 1987, recalled, not read; supported by a "
+                  "cubic pressure fit read in a public code (2.19, 9.224, 8.767 GPa), 2-4 % off at mu = 0.1 and 0.2",
+                  MieGruneisenWater(steinberg), steinberg.rho0});
 
   MieGruneisenWater::Parameters printed;
   printed.S2 = 1.986;
   printed.S3 = 1.2286;
   printed.alpha = 0.0;
   sets.push_back({"water-paper-mg",
-                  UNDEX_PAPER
-                  ", table 4 to the letter. S2 and S3 look like misprints of Steinberg's -1.986 and 0.2268: "
-                  "at mu = 0.2 this set gives 1332 MPa where his gives 847",
+                  UNDEX_PAPER ", table 4 to the letter. S2 and S3 look like misprints of Steinberg's -1.986 and 0.2268: "
+                              "at mu = 0.2 this set gives 1332 MPa where his gives 847",
                   MieGruneisenWater(printed), printed.rho0});
 
   const Jwl::Parameters petn{.rho0 = 1770.0,
@@ -75,31 +71,27 @@ std::vector<Fluid> make_fluids() {
                              .E0 = 10.1e9 / 1770.0,
                              .D = 8300.0,
                              .p_cj = 33.5e9};
-  sets.push_back(
-      {"petn",
-       "PETN of 1770 kg/m^3, as read in public hydrocode data; stands for the lost table 1 of " UNDEX_PAPER
-       ". Self-consistent: its own Chapman-Jouguet state is 33.51 GPa at 8301 m/s",
-       Jwl(petn), petn.rho0});
+  sets.push_back({"petn",
+                  "PETN of 1770 kg/m^3, as read in public hydrocode data; stands for the lost table 1 of " UNDEX_PAPER
+                  ". Self-consistent: its own Chapman-Jouguet state is 33.51 GPa at 8301 m/s",
+                  Jwl(petn), petn.rho0});
 
   sets.push_back(barotropic("bubble-gas", {.rho0 = 1770.0, .p0 = 2e9, .gamma = 2.0},
-                            UNDEX_PAPER
-                            ", eq. 25 and section 4.1: the explosive gas bubble in the rigid cylinder"));
+                            UNDEX_PAPER ", eq. 25 and section 4.1: the explosive gas bubble in the rigid cylinder"));
   sets.push_back(barotropic("sjogreen-gas", {.rho0 = 1.0, .p0 = 0.4, .gamma = 1.4},
-                            UNDEX_PAPER
-                            ", eq. 34, the state of the Sjogreen problem (dimensionless there); gamma 1.4 is "
-                            "the value that gives the figure of the paper"));
+                            UNDEX_PAPER ", eq. 34, the state of the Sjogreen problem (dimensionless there); gamma 1.4 is "
+                                        "the value that gives the figure of the paper"));
   sets.push_back(barotropic("sjogreen-gas-gamma2", {.rho0 = 1.0, .p0 = 0.4, .gamma = 2.0},
-                            UNDEX_PAPER
-                            ", eq. 34 with the gamma printed beside eq. 25; the exact solution then has a "
-                            "vacuum in the middle, unlike the figure"));
+                            UNDEX_PAPER ", eq. 34 with the gamma printed beside eq. 25; the exact solution then has a "
+                                        "vacuum in the middle, unlike the figure"));
   const IdealGas::Parameters air{.rho0 = 1.204, .gamma = 1.4};
-  sets.push_back({"air", "Dry air at 20 C and 101325 Pa as an ideal gas; handbook values, recalled, not read",
-                  IdealGas(air), air.rho0});
+  sets.push_back(
+      {"air", "Dry air at 20 C and 101325 Pa as an ideal gas; handbook values, recalled, not read", IdealGas(air), air.rho0});
   return sets;
 }
 
-Solid solid(const char* name, const char* source, double rho0, double shear_modulus, SolidPressure pressure,
-            FlowStress flow, double heat_capacity) {
+Solid solid(const char* name, const char* source, double rho0, double shear_modulus, SolidPressure pressure, FlowStress flow,
+            double heat_capacity) {
   Solid s;
   s.name = name;
   s.source = source;
@@ -117,69 +109,59 @@ std::vector<Solid> make_solids() {
   const LinearPressure linear_5xxx{bulk_from(E_5xxx, nu_5xxx)};
   std::vector<Solid> sets;
   sets.push_back(solid("al-impact-table2",
-                       UNDEX_PAPER
-                       ", table 2: the impact of an aluminium sphere, elastic and perfectly plastic; heat "
-                       "capacity is a handbook value, recalled, not read",
+                       UNDEX_PAPER ", table 2: the impact of an aluminium sphere, elastic and perfectly plastic; heat "
+                                   "capacity is a handbook value, recalled, not read",
                        2710.0, 27.6e9, MieGruneisenPressure{.C = 5300.0, .S = 1.5, .Gamma = 1.7},
                        LinearHardening{.Y0 = 550e6, .H = 0.0}, 900.0));
-  sets.push_back(solid(
-      "al-2024-t351",
-      "Johnson and Cook 1983, recalled, not read: the likeliest content of the lost table 3 of " UNDEX_PAPER
-      " (same shear modulus); density and Mie-Grueneisen constants of 2024 after "
-      "Steinberg's compendium, recalled, not read",
-      2785.0, 27.6e9, MieGruneisenPressure{.C = 5328.0, .S = 1.338, .Gamma = 2.0},
-      JohnsonCook{.A = 265e6, .B = 426e6, .n = 0.34, .C = 0.015, .m = 1.0, .T_melt = 775.0}, 875.0));
-  sets.push_back(
-      solid("al-6061-t6",
-            "Johnson-Cook constants and heat capacity as read in public data files; density, shear modulus "
-            "and Mie-Grueneisen constants after Steinberg's compendium, recalled, not read",
-            2703.0, 27.6e9, MieGruneisenPressure{.C = 5240.0, .S = 1.40, .Gamma = 1.97},
-            JohnsonCook{.A = 324e6, .B = 114e6, .n = 0.42, .C = 0.002, .m = 1.34, .T_melt = 925.0}, 896.0));
+  sets.push_back(solid("al-2024-t351",
+                       "Johnson and Cook 1983, recalled, not read: the likeliest content of the lost table 3 of " UNDEX_PAPER
+                       " (same shear modulus); density and Mie-Grueneisen constants of 2024 after "
+                       "Steinberg's compendium, recalled, not read",
+                       2785.0, 27.6e9, MieGruneisenPressure{.C = 5328.0, .S = 1.338, .Gamma = 2.0},
+                       JohnsonCook{.A = 265e6, .B = 426e6, .n = 0.34, .C = 0.015, .m = 1.0, .T_melt = 775.0}, 875.0));
+  sets.push_back(solid("al-6061-t6",
+                       "Johnson-Cook constants and heat capacity as read in public data files; density, shear modulus "
+                       "and Mie-Grueneisen constants after Steinberg's compendium, recalled, not read",
+                       2703.0, 27.6e9, MieGruneisenPressure{.C = 5240.0, .S = 1.40, .Gamma = 1.97},
+                       JohnsonCook{.A = 324e6, .B = 114e6, .n = 0.42, .C = 0.002, .m = 1.34, .T_melt = 925.0}, 896.0));
   JohnsonCook h116{.A = 167e6, .B = 596e6, .n = 0.551, .C = 0.001, .m = 1.0, .T_melt = 893.0};
-  sets.push_back(
-      solid("al-5083-h116",
-            "Johnson-Cook constants published for 5083-H116 plate, recalled, not read, with softening "
-            "exponent 1.0; E 71 GPa, nu 0.33. The nearest published set to the tube's 5086",
-            2700.0, G_5xxx, linear_5xxx, h116, 910.0));
+  sets.push_back(solid("al-5083-h116",
+                       "Johnson-Cook constants published for 5083-H116 plate, recalled, not read, with softening "
+                       "exponent 1.0; E 71 GPa, nu 0.33. The nearest published set to the tube's 5086",
+                       2700.0, G_5xxx, linear_5xxx, h116, 910.0));
   h116.m = 0.859;
-  sets.push_back(
-      solid("al-5083-h116-m0859",
-            "As al-5083-h116 with the other softening exponent in circulation, 0.859; recalled, not read",
-            2700.0, G_5xxx, linear_5xxx, h116, 910.0));
-  sets.push_back(solid(
-      "al-5086-o",
-      "Annealed 5086, the tube's likely temper. A, B, n by Considere's condition from handbook tensile "
-      "values, recalled, not read: yield 117 MPa, ultimate 262 MPa, elongation 22 % (taken as uniform): "
-      "true stress 319.6 MPa at strain 0.1989, where the slope equals the stress. C and m assumed; "
-      "E 71 GPa, nu 0.33. Built from tensile data alone, not from the tube",
-      2700.0, G_5xxx, linear_5xxx,
-      JohnsonCook{.A = 117e6, .B = 336e6, .n = 0.314, .C = 0.001, .m = 1.0, .T_melt = 893.0}, 900.0));
-  sets.push_back(solid(
-      "al-5086-h116",
-      "A, B, n by Considere's condition from handbook tensile values, recalled, not read: yield 207 MPa, "
-      "ultimate 290 MPa, elongation 12 % (taken as uniform): true stress 324.8 MPa at strain 0.1133, "
-      "where the slope equals the stress. C and m assumed; E 71 GPa, nu 0.33. Built from tensile data "
-      "alone, not from the tube",
-      2700.0, G_5xxx, linear_5xxx,
-      JohnsonCook{.A = 207e6, .B = 233e6, .n = 0.312, .C = 0.001, .m = 1.0, .T_melt = 893.0}, 900.0));
+  sets.push_back(solid("al-5083-h116-m0859",
+                       "As al-5083-h116 with the other softening exponent in circulation, 0.859; recalled, not read", 2700.0,
+                       G_5xxx, linear_5xxx, h116, 910.0));
+  sets.push_back(solid("al-5086-o",
+                       "Annealed 5086, the tube's likely temper. A, B, n by Considere's condition from handbook tensile "
+                       "values, recalled, not read: yield 117 MPa, ultimate 262 MPa, elongation 22 % (taken as uniform): "
+                       "true stress 319.6 MPa at strain 0.1989, where the slope equals the stress. C and m assumed; "
+                       "E 71 GPa, nu 0.33. Built from tensile data alone, not from the tube",
+                       2700.0, G_5xxx, linear_5xxx,
+                       JohnsonCook{.A = 117e6, .B = 336e6, .n = 0.314, .C = 0.001, .m = 1.0, .T_melt = 893.0}, 900.0));
+  sets.push_back(solid("al-5086-h116",
+                       "A, B, n by Considere's condition from handbook tensile values, recalled, not read: yield 207 MPa, "
+                       "ultimate 290 MPa, elongation 12 % (taken as uniform): true stress 324.8 MPa at strain 0.1133, "
+                       "where the slope equals the stress. C and m assumed; E 71 GPa, nu 0.33. Built from tensile data "
+                       "alone, not from the tube",
+                       2700.0, G_5xxx, linear_5xxx,
+                       JohnsonCook{.A = 207e6, .B = 233e6, .n = 0.312, .C = 0.001, .m = 1.0, .T_melt = 893.0}, 900.0));
   sets.push_back(solid(
       "al-5086-za",
       "Zerilli-Armstrong constants, shear modulus and Mie-Grueneisen constants of 5086 as read in a public code for this very "
       "tube; heat capacity is a handbook value, recalled, not read",
       2700.0, 26.4e9, MieGruneisenPressure{.C = 5240.0, .S = 1.49, .Gamma = 1.97},
       ZerilliArmstrong{.C0 = 234e6, .C2 = 1283e6, .C3 = 0.00371, .C4 = 0.000153}, 900.0));
-  sets.push_back(
-      solid("armco-iron", "Johnson-Cook constants, moduli and heat capacity as read in public data files",
-            7890.0, 80e9, LinearPressure{164e9},
-            JohnsonCook{.A = 175e6, .B = 380e6, .n = 0.32, .C = 0.06, .m = 0.55, .T_melt = 1811.0}, 452.0));
-  sets.push_back(
-      solid("copper-ofhc",
-            "Johnson and Cook 1983, in part as read in public data files, in part recalled, not read", 8960.0,
-            46e9, LinearPressure{129e9},
-            JohnsonCook{.A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .T_melt = 1356.0}, 383.0));
+  sets.push_back(solid("armco-iron", "Johnson-Cook constants, moduli and heat capacity as read in public data files", 7890.0,
+                       80e9, LinearPressure{164e9},
+                       JohnsonCook{.A = 175e6, .B = 380e6, .n = 0.32, .C = 0.06, .m = 0.55, .T_melt = 1811.0}, 452.0));
+  sets.push_back(solid("copper-ofhc", "Johnson and Cook 1983, in part as read in public data files, in part recalled, not read",
+                       8960.0, 46e9, LinearPressure{129e9},
+                       JohnsonCook{.A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .T_melt = 1356.0}, 383.0));
   sets.push_back(solid("steel-4340",
-                       "Johnson and Cook 1983, 4340 steel of Rockwell C-30; E 200 GPa, nu 0.29; all recalled, not read",
-                       7830.0, shear_from(200e9, 0.29), LinearPressure{bulk_from(200e9, 0.29)},
+                       "Johnson and Cook 1983, 4340 steel of Rockwell C-30; E 200 GPa, nu 0.29; all recalled, not read", 7830.0,
+                       shear_from(200e9, 0.29), LinearPressure{bulk_from(200e9, 0.29)},
                        JohnsonCook{.A = 792e6, .B = 510e6, .n = 0.26, .C = 0.014, .m = 1.03, .T_melt = 1793.0}, 477.0));
 
   const auto add_zerilli_armstrong = [&](const char* of, const ZerilliArmstrong& flow, const char* source) {
@@ -189,8 +171,7 @@ std::vector<Solid> make_solids() {
     changed.flow = flow;
     sets.push_back(changed);
   };
-  add_zerilli_armstrong("armco-iron",
-                        {.C0 = 65e6, .C1 = 1033e6, .C3 = 0.00698, .C4 = 0.000415, .C5 = 266e6, .n = 0.289},
+  add_zerilli_armstrong("armco-iron", {.C0 = 65e6, .C1 = 1033e6, .C3 = 0.00698, .C4 = 0.000415, .C5 = 266e6, .n = 0.289},
                         "Zerilli and Armstrong 1987, Armco iron (body-centred), recalled, not read");
   add_zerilli_armstrong("copper-ofhc", {.C0 = 65e6, .C2 = 890e6, .C3 = 0.0028, .C4 = 0.000115},
                         "Zerilli and Armstrong 1987, OFHC copper (face-centred), recalled, not read");
@@ -266,9 +247,8 @@ Table rows(const StiffenedGas& law) {
 
 Table rows(const Jwl& law) {
   const Jwl::Parameters& p = law.parameters();
-  return {{"rho0 [kg/m^3]", p.rho0}, {"A [Pa]", p.A},  {"B [Pa]", p.B},
-          {"R1 [-]", p.R1},          {"R2 [-]", p.R2}, {"omega [-]", p.omega},
-          {"E0 [J/kg]", p.E0},       {"D [m/s]", p.D}, {"p_cj [Pa]", p.p_cj}};
+  return {{"rho0 [kg/m^3]", p.rho0}, {"A [Pa]", p.A},     {"B [Pa]", p.B},  {"R1 [-]", p.R1},     {"R2 [-]", p.R2},
+          {"omega [-]", p.omega},    {"E0 [J/kg]", p.E0}, {"D [m/s]", p.D}, {"p_cj [Pa]", p.p_cj}};
 }
 
 Table rows(const MieGruneisenWater& law) {
@@ -281,9 +261,7 @@ Table rows(const MieGruneisenWater& law) {
 
 Table rows(const LinearPressure& law) { return {{"bulk_modulus [Pa]", law.bulk_modulus}}; }
 
-Table rows(const MieGruneisenPressure& law) {
-  return {{"C [m/s]", law.C}, {"S [-]", law.S}, {"Gamma [-]", law.Gamma}};
-}
+Table rows(const MieGruneisenPressure& law) { return {{"C [m/s]", law.C}, {"S [-]", law.S}, {"Gamma [-]", law.Gamma}}; }
 
 Table rows(const Elastic&) { return {}; }
 
@@ -291,9 +269,7 @@ Table rows(const LinearHardening& law) { return {{"Y0 [Pa]", law.Y0}, {"H [Pa]",
 
 Table rows(const PowerHardening& law) { return {{"A [Pa]", law.A}, {"B [Pa]", law.B}, {"n [-]", law.n}}; }
 
-Table rows(const CowperSymonds& law) {
-  return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}, {"D [1/s]", law.D}, {"q [-]", law.q}};
-}
+Table rows(const CowperSymonds& law) { return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}, {"D [1/s]", law.D}, {"q [-]", law.q}}; }
 
 Table rows(const ZerilliArmstrong& law) {
   return {{"za_C0 [Pa]", law.C0},  {"za_C1 [Pa]", law.C1}, {"za_C2 [Pa]", law.C2}, {"za_C3 [1/K]", law.C3},
@@ -302,17 +278,16 @@ Table rows(const ZerilliArmstrong& law) {
 
 // Names start with jc: A, B and C stand beside a pressure law's C.
 Table rows(const JohnsonCook& law) {
-  return {{"jc_A [Pa]", law.A},       {"jc_B [Pa]", law.B},         {"jc_n [-]", law.n},
-          {"jc_C [-]", law.C},        {"jc_m [-]", law.m},          {"T_melt [K]", law.T_melt},
-          {"rate0 [1/s]", law.rate0}, {"jc_T_room [K]", law.T_room}};
+  return {{"jc_A [Pa]", law.A}, {"jc_B [Pa]", law.B},       {"jc_n [-]", law.n},        {"jc_C [-]", law.C},
+          {"jc_m [-]", law.m},  {"T_melt [K]", law.T_melt}, {"rate0 [1/s]", law.rate0}, {"jc_T_room [K]", law.T_room}};
 }
 
 Table rows(const Spall& spall) { return {{"spall_strength [Pa]", spall.strength}}; }
 
 // Names start with damage: a flow stress has a melting point of its own.
 Table rows(const JohnsonCookDamage& law) {
-  return {{"damage_D1 [-]", law.D1},         {"damage_D2 [-]", law.D2},       {"damage_D3 [-]", law.D3},
-          {"damage_D4 [-]", law.D4},         {"damage_D5 [-]", law.D5},       {"damage_T_melt [K]", law.T_melt},
+  return {{"damage_D1 [-]", law.D1},         {"damage_D2 [-]", law.D2},        {"damage_D3 [-]", law.D3},
+          {"damage_D4 [-]", law.D4},         {"damage_D5 [-]", law.D5},        {"damage_T_melt [K]", law.T_melt},
           {"damage_rate0 [1/s]", law.rate0}, {"damage_T_room [K]", law.T_room}};
 }
 

@@ -13,8 +13,7 @@ constexpr double largest_compression = 4.0;
 MieGruneisenWater::MieGruneisenWater(const Parameters& parameters) : p_(parameters) {
   if (!(p_.rho0 > 0 && p_.C0 > 0)) {
     std::ostringstream text;
-    text << "MieGruneisenWater: rho0 [kg/m^3] and C0 [m/s] must be positive, got " << p_.rho0 << " and "
-         << p_.C0;
+    text << "MieGruneisenWater: rho0 [kg/m^3] and C0 [m/s] must be positive, got " << p_.rho0 << " and " << p_.C0;
     throw std::invalid_argument(text.str());
   }
   if (p_.cavitation == Cavitation::schmidt || p_.cavitation == Cavitation::isentropic)
@@ -37,8 +36,7 @@ double MieGruneisenWater::density_at(double pressure, double energy) const {
   const bool under_floor = p_.cavitation == Cavitation::cutoff && pressure < p_.p_floor;
   if (under_floor) {
     std::ostringstream text;
-    text << "Mie-Grueneisen water has no density at " << pressure << " Pa: it cavitates at " << p_.p_floor
-         << " Pa";
+    text << "Mie-Grueneisen water has no density at " << pressure << " Pa: it cavitates at " << p_.p_floor << " Pa";
     throw std::domain_error(text.str());
   }
   return search_density(*this, "Mie-Grueneisen water", pressure, energy, 1e-3 * p_.rho0, 2.0 * p_.rho0);

@@ -91,10 +91,8 @@ inline double MieGruneisenWater::cutoff_density(double energy) const {
 inline PressureSound MieGruneisenWater::evaluate(double rho, double energy) const {
   const double mu = rho / p_.rho0 - 1.0;
   Curve reference{stiffness_ * mu, stiffness_};
-  if (mu > mu_limit_)
-    reference = {at_limit_.value + at_limit_.slope * (mu - mu_limit_), at_limit_.slope};
-  else if (mu > 0.0)
-    reference = compressed(mu);
+  if (mu > mu_limit_) reference = {at_limit_.value + at_limit_.slope * (mu - mu_limit_), at_limit_.slope};
+  else if (mu > 0.0) reference = compressed(mu);
   double gruneisen = p_.gamma0 + p_.alpha * mu;
   double pressure = reference.value + gruneisen * p_.rho0 * energy;
   if (pressure < p_.p_floor && p_.cavitation == Cavitation::cutoff) {
@@ -103,8 +101,7 @@ inline PressureSound MieGruneisenWater::evaluate(double rho, double energy) cons
     gruneisen = p_.gamma0 + p_.alpha * (rho / p_.rho0 - 1.0);
     reference.slope = stiffness_;
   }
-  const double sound_squared =
-      reference.slope / p_.rho0 + p_.alpha * energy + gruneisen * p_.rho0 * pressure / (rho * rho);
+  const double sound_squared = reference.slope / p_.rho0 + p_.alpha * energy + gruneisen * p_.rho0 * pressure / (rho * rho);
   return {pressure, std::sqrt(std::max(sound_squared, 0.01 * p_.C0 * p_.C0))};
 }
 

@@ -13,10 +13,10 @@ struct PressureSound {
 
 /// What happens where liquid water is stretched below its saturation pressure.
 enum class Cavitation {
-  none,     ///< tension allowed
-  cutoff,   ///< pressure held at `p_floor`
-  schmidt,  ///< modified Schmidt mixture (Chen et al. 2019, eqs 31-33), made continuous with the liquid law
-            ///< at p_sat
+  none,        ///< tension allowed
+  cutoff,      ///< pressure held at `p_floor`
+  schmidt,     ///< modified Schmidt mixture (Chen et al. 2019, eqs 31-33), made continuous with the liquid law
+               ///< at p_sat
   isentropic,  ///< liquid and vapour in equilibrium of pressure, each on its isentrope (isentropic_mixture.hpp)
 };
 

@@ -32,9 +32,9 @@ struct Solid {
   double shear_modulus;  ///< [Pa]
   SolidPressure pressure;
   FlowStress flow;
-  double heat_capacity = 900.0;  ///< [J/kg/K]
-  double taylor_quinney = 0.9;   ///< share of the plastic work that heats
-  double T_room = 293.0;         ///< temperature at the start [K]
+  double heat_capacity = 900.0;             ///< [J/kg/K]
+  double taylor_quinney = 0.9;              ///< share of the plastic work that heats
+  double T_room = 293.0;                    ///< temperature at the start [K]
   std::optional<Spall> spall;               ///< without it any tension is carried
   std::optional<JohnsonCookDamage> damage;  ///< without it plastic strain does not break
 };
@@ -53,9 +53,7 @@ SolidPressureSound evaluate(const MieGruneisenPressure& law, double rho0, double
 /// A point that has failed has damage 1 [-]; below that its damage counts the share of the fracture strain spent.
 inline constexpr double failed = 1.0;
 /// Can a point of this solid fail? Then its damage has to be kept.
-inline bool can_fail(const Solid& solid) {
-  return solid.damage || (solid.spall && solid.spall->mode == Spall::Mode::fail);
-}
+inline bool can_fail(const Solid& solid) { return solid.damage || (solid.spall && solid.spall->mode == Spall::Mode::fail); }
 /// Does a point fail in which the pressure law gives `pressure` [Pa]? Then set its damage to `failed`.
 inline bool spalls(const Solid& solid, double pressure) {
   return solid.spall && solid.spall->mode == Spall::Mode::fail && pressure <= -solid.spall->strength;

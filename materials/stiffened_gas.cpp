@@ -22,8 +22,8 @@ double StiffenedGas::density_at(double pressure, double energy) const {
   const double stiffened = pressure + p_.gamma * p_.p_inf;
   if (!(stiffened > 0 && energy > 0)) {
     std::ostringstream text;
-    text << "stiffened gas has no density at " << pressure << " Pa and " << energy
-         << " J/kg: its pressures are above " << -p_.gamma * p_.p_inf << " Pa, and need a positive energy";
+    text << "stiffened gas has no density at " << pressure << " Pa and " << energy << " J/kg: its pressures are above "
+         << -p_.gamma * p_.p_inf << " Pa, and need a positive energy";
     throw std::domain_error(text.str());
   }
   return stiffened / ((p_.gamma - 1.0) * energy);

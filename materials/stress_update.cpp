@@ -40,9 +40,8 @@ inline void rotate_and_strain(double shear, const EightPoints (&gradient)[3][3],
     const double r01 = factor * (ax * ay - az), r10 = factor * (ax * ay + az);
     const double r02 = factor * (ax * az + ay), r20 = factor * (ax * az - ay);
     const double r12 = factor * (ay * az - ax), r21 = factor * (ay * az + ax);
-    const double sxx = s[0][q] + shear * strain[0][q], syy = s[1][q] + shear * strain[1][q],
-                 szz = s[2][q] + shear * strain[2][q], syz = s[3][q] + shear * strain[3][q],
-                 szx = s[4][q] + shear * strain[4][q], sxy = s[5][q] + shear * strain[5][q];
+    const double sxx = s[0][q] + shear * strain[0][q], syy = s[1][q] + shear * strain[1][q], szz = s[2][q] + shear * strain[2][q],
+                 syz = s[3][q] + shear * strain[3][q], szx = s[4][q] + shear * strain[4][q], sxy = s[5][q] + shear * strain[5][q];
     const double t00 = r00 * sxx + r01 * sxy + r02 * szx, t01 = r00 * sxy + r01 * syy + r02 * syz,
                  t02 = r00 * szx + r01 * syz + r02 * szz;
     const double t10 = r10 * sxx + r11 * sxy + r12 * szx, t11 = r10 * sxy + r11 * syy + r12 * syz,

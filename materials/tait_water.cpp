@@ -50,7 +50,8 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
     rho_limit_ = liquid_density(mixture.p_sat);
     liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
     rho_vapour_ = mixture.density_ratio * rho_limit_;
-    isentropic_ = IsentropicMixture({mixture.p_sat, rho_limit_, p_.N, p_.B - p_.A, rho_vapour_, p_.vapour_gamma, p_.initial_void});
+    isentropic_ =
+        IsentropicMixture({mixture.p_sat, rho_limit_, p_.N, p_.B - p_.A, rho_vapour_, p_.vapour_gamma, p_.initial_void});
     p_lowest_ = p_.p_floor;
     rho_wet_ = isentropic_.density(mixture.p_sat);
     rho_floor_ = isentropic_.density(p_lowest_);
@@ -66,8 +67,7 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   rho_vapour_ = mixture.density_ratio * rho_limit_;
   K_vapour_ = rho_vapour_ * mixture.vapour_sound * mixture.vapour_sound;
   K_liquid_ = rho_limit_ * mixture.liquid_sound * mixture.liquid_sound;
-  require(K_liquid_ > K_vapour_, "the liquid must be stiffer than the vapour, rho a^2 [Pa] of the liquid",
-          K_liquid_);
+  require(K_liquid_ > K_vapour_, "the liquid must be stiffer than the vapour, rho a^2 [Pa] of the liquid", K_liquid_);
   p_gl_ = schmidt_pressure_scale(mixture, rho_limit_);
   const double p_vapour = mixture_pressure(rho_vapour_, 1.0);
   p_lowest_ = std::max(p_.p_floor, p_vapour);
@@ -81,9 +81,7 @@ PressureSound TaitWater::isentropic_state(double rho) const {
   return {pressure, guarded_sound_speed(isentropic_.sound_squared(pressure))};
 }
 
-double TaitWater::liquid_density(double pressure) const {
-  return p_.rho0 * std::pow(1.0 + (pressure - p_.A) / p_.B, 1.0 / p_.N);
-}
+double TaitWater::liquid_density(double pressure) const { return p_.rho0 * std::pow(1.0 + (pressure - p_.A) / p_.B, 1.0 / p_.N); }
 
 double TaitWater::density_at(double pressure, double) const {
   const double lowest = p_.cavitation == Cavitation::none ? p_.A - p_.B : p_lowest_;
@@ -100,16 +98,14 @@ double TaitWater::density_at(double pressure, double) const {
   }
   // Eq. 32 solved for the void fraction.
   const double ratio = std::exp((pressure - p_.mixture.p_sat) / p_gl_);
-  const double alpha =
-      rho_limit_ * K_vapour_ * (1.0 - ratio) /
-      (K_vapour_ * (rho_limit_ - rho_vapour_) + ratio * rho_limit_ * (K_liquid_ - K_vapour_));
+  const double alpha = rho_limit_ * K_vapour_ * (1.0 - ratio) /
+                       (K_vapour_ * (rho_limit_ - rho_vapour_) + ratio * rho_limit_ * (K_liquid_ - K_vapour_));
   return rho_limit_ - alpha * (rho_limit_ - rho_vapour_);
 }
 
 double TaitWater::liquid_energy(double rho) const {
   const double strain = rho / p_.rho0;
-  return p_.B / (p_.rho0 * (p_.N - 1.0)) * (std::pow(strain, p_.N - 1.0) - 1.0) +
-         (p_.A - p_.B) * (1.0 / p_.rho0 - 1.0 / rho);
+  return p_.B / (p_.rho0 * (p_.N - 1.0)) * (std::pow(strain, p_.N - 1.0) - 1.0) + (p_.A - p_.B) * (1.0 / p_.rho0 - 1.0 / rho);
 }
 
 double TaitWater::mixture_energy(double rho) const {

@@ -51,7 +51,7 @@ class TaitWater {
     double A = 1e5;        ///< pressure at rho0 [Pa]
     Cavitation cavitation = Cavitation::schmidt;
     SchmidtMixture mixture;
-    double p_floor = 1e-5;  ///< [Pa], eq. 32's p_eps
+    double p_floor = 1e-5;       ///< [Pa], eq. 32's p_eps
     double vapour_gamma = 1.33;  ///< [-], of the isentropic mixture, as the next
     double initial_void = 1e-5;  ///< void fraction where the liquid begins to cavitate
   };
@@ -90,9 +90,7 @@ class TaitWater {
   double mixture_pressure(double rho, double alpha) const {
     return p_.mixture.p_sat + p_gl_ * std::log(K_vapour_ * rho / (rho_limit_ * weighted_modulus(alpha)));
   }
-  double mixture_sound_squared(double rho, double alpha) const {
-    return K_vapour_ * K_liquid_ / (rho * weighted_modulus(alpha));
-  }
+  double mixture_sound_squared(double rho, double alpha) const { return K_vapour_ * K_liquid_ / (rho * weighted_modulus(alpha)); }
   double mixture_energy(double rho) const;
   PressureSound isentropic_state(double rho) const;
 

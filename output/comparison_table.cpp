@@ -47,8 +47,7 @@ bool read_value(const std::string& cell, ReferenceTable::Value& value) {
 
 ReferenceTable read_reference_table(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file)
-    throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the reference table's path");
+  if (!file) throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the reference table's path");
   ReferenceTable table;
   bool header_seen = false;
   long line_number = 0;
@@ -82,8 +81,7 @@ ReferenceTable read_reference_table(const std::filesystem::path& path) {
   return table;
 }
 
-std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference,
-                              std::size_t max_width) {
+std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference, std::size_t max_width) {
   // Columns: the row's label, a value per run; then per source its value and each run's difference from it.
   const std::size_t n = runs.size(), per_source = n + 1;
   std::vector<std::vector<std::string>> lines(1, {""});
@@ -145,7 +143,8 @@ std::string format_comparison(const std::vector<LabelledMetrics>& runs, const Re
       for (std::size_t r = 1; r <= n; ++r) line += "   " + padded_left(lines[l][r], widths[r]);
       for (std::size_t c = begin; c < end; c += per_source) {
         line += "   " + padded_left(lines[l][c], l == 0 ? source_width(c) : widths[c]);
-        for (std::size_t i = 1; l > 0 && i < per_source; ++i) line.append(" ").append(padded_left(lines[l][c + i], widths[c + i]));
+        for (std::size_t i = 1; l > 0 && i < per_source; ++i)
+          line.append(" ").append(padded_left(lines[l][c + i], widths[c + i]));
       }
       line.erase(line.find_last_not_of(' ') + 1);
       text += line + "\n" + (l == 0 ? std::string(total, '-') + "\n" : "");

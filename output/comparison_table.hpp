@@ -42,7 +42,6 @@ struct LabelledMetrics {
 std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference,
                               std::size_t max_width = 120);
 /// The same of one run, headed "this run".
-std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference,
-                              std::size_t max_width = 120);
+std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width = 120);
 
 }  // namespace undex::output

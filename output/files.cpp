@@ -19,22 +19,16 @@ namespace {
 const char* remedy(int error_number) {
   switch (error_number) {
     case ENOSPC:
-    case EDQUOT:
-      return "free some space or choose another output folder with -o";
+    case EDQUOT: return "free some space or choose another output folder with -o";
     case EACCES:
     case EPERM:
-    case EROFS:
-      return "choose an output folder that you may write to with -o";
+    case EROFS: return "choose an output folder that you may write to with -o";
     case ENOENT:
-    case ENOTDIR:
-      return "the output folder does not exist: make it, or choose another with -o";
-    case EISDIR:
-      return "a folder has the name of this file: remove it or choose another output folder with -o";
+    case ENOTDIR: return "the output folder does not exist: make it, or choose another with -o";
+    case EISDIR: return "a folder has the name of this file: remove it or choose another output folder with -o";
     case EMFILE:
-    case ENFILE:
-      return "too many files are open: raise the limit (ulimit -n)";
-    default:
-      return "choose another output folder with -o";
+    case ENFILE: return "too many files are open: raise the limit (ulimit -n)";
+    default: return "choose another output folder with -o";
   }
 }
 
@@ -73,10 +67,8 @@ void write_text_atomically(const std::filesystem::path& path, const std::string&
   int error = 0;
   for (std::size_t done = 0; done < text.size() && error == 0;) {
     const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written >= 0)
-      done += static_cast<std::size_t>(written);
-    else if (errno != EINTR)
-      error = errno;
+    if (written >= 0) done += static_cast<std::size_t>(written);
+    else if (errno != EINTR) error = errno;
   }
   if (error == 0 && fsync(file) != 0 && errno != EINVAL && errno != ENOSYS) error = errno;
   if (close(file) != 0 && error == 0) error = errno;

@@ -113,8 +113,8 @@ void File::attribute(hid_t object, const char* name, const std::string& ascii) c
   check(H5Awrite(attribute, type, ascii.data()), "write");
 }
 
-void File::write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows,
-                 std::size_t columns, std::size_t value_bytes) const {
+void File::write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows, std::size_t columns,
+                 std::size_t value_bytes) const {
   errno = 0;
   const hsize_t size[2] = {rows, columns};
   const int rank = columns == 1 ? 1 : 2;

@@ -60,8 +60,8 @@ class File {
  private:
   File(std::filesystem::path path, Handle file) : path_(std::move(path)), file_(std::move(file)) {}
   [[noreturn]] void fail(const char* action) const;
-  void write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows,
-             std::size_t columns, std::size_t value_bytes) const;
+  void write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows, std::size_t columns,
+             std::size_t value_bytes) const;
 
   std::filesystem::path path_;
   Handle file_;

@@ -27,9 +27,7 @@ Peak first_peak(const Series& p, double until) {
   return {top.t, top.y};
 }
 
-double half_rise(const Series& p, const Peak& peak) {
-  return peak.found() ? first_rise(p, 0.5 * peak.y, -forever, peak.t) : nan;
-}
+double half_rise(const Series& p, const Peak& peak) { return peak.found() ? first_rise(p, 0.5 * peak.y, -forever, peak.t) : nan; }
 
 // Largest mean over `window` centred in a..b, only where the windows lie within the samples.
 double largest_mean(const Series& p, double window, double a, double b) {
@@ -46,8 +44,8 @@ double largest_mean(const Series& p, double window, double a, double b) {
     merged.append(t, value_held(p, t));
   }
   for (; i < p.t.size() && p.t[i] <= end; ++i) merged.append(p.t[i], p.y[i]);
-  return maximum(moving_average(merged, window), std::max(a, p.t.front() + 0.5 * window),
-                 std::min(b, p.t.back() - 0.5 * window)).y;
+  return maximum(moving_average(merged, window), std::max(a, p.t.front() + 0.5 * window), std::min(b, p.t.back() - 0.5 * window))
+      .y;
 }
 
 // When the pressure, having dropped below `cavitated` in from..until, is gone: the fall from twice that level continued
@@ -112,8 +110,7 @@ void add_pressure(NamedNumbers& out, const Series& p) {
   out.emplace_back("peak_pressure_time_s", peak.t);
   out.emplace_back("peak_pressure_3us_pa", peak.found() ? largest_mean(p, 3 * us, 0, 45 * us) : nan);
   for (const int end : {30, 60, 100})
-    if (covers(p, 0, end * us))
-      out.emplace_back("impulse_0_" + std::to_string(end) + "us_pa_s", integral(p, 0, end * us));
+    if (covers(p, 0, end * us)) out.emplace_back("impulse_0_" + std::to_string(end) + "us_pa_s", integral(p, 0, end * us));
   const double cavitation = peak.found() ? fall_to_zero(p, peak.t, 85 * us) : nan;
   out.emplace_back("cavitation_s", cavitation);
   out.emplace_back("closure_s", std::isnan(cavitation) ? nan : first_rise(p, cavitated, cavitation, forever));
@@ -147,8 +144,7 @@ NamedNumbers rigid_cylinder_metrics(const Series& p, const Series& reference) {
 }
 
 NamedNumbers tube_metrics(const TubeHistories& histories) {
-  for (const Series* series :
-       {&histories.pressure, &histories.displacement, &histories.velocity, &histories.plastic_strain})
+  for (const Series* series : {&histories.pressure, &histories.displacement, &histories.velocity, &histories.plastic_strain})
     require_valid(*series);
   NamedNumbers out;
   add_table(out, histories.displacement, "displacement", "m", {20, 30, 40, 60, 80, 100, 120, 150, 200, 250, 300});
@@ -172,13 +168,15 @@ NamedNumbers taylor_bar_metrics(const std::vector<Vec3>& points, int axis, const
     Widest found;
     for (const Vec3& x : points) {
       const double height = x[axis] - low;
-      const double radius = std::hypot(x[(axis + 1) % 3] - center[(axis + 1) % 3], x[(axis + 2) % 3] - center[(axis + 2) % 3]) + skin;
+      const double radius =
+          std::hypot(x[(axis + 1) % 3] - center[(axis + 1) % 3], x[(axis + 2) % 3] - center[(axis + 2) % 3]) + skin;
       if (height >= from && height <= to && radius > found.radius) found = {height, radius};
     }
     return found;
   };
   const double fifth = 0.2 * initial_length, slice = 0.05 * initial_length;
-  const Widest foot = widest(0.0, 0.1 * initial_length), below = widest(fifth - slice, fifth), above = widest(fifth, fifth + slice);
+  const Widest foot = widest(0.0, 0.1 * initial_length), below = widest(fifth - slice, fifth),
+               above = widest(fifth, fifth + slice);
   double radius = nan;
   if (std::isfinite(below.radius) && std::isfinite(above.radius)) {
     const double gap = above.height - below.height;

@@ -43,16 +43,16 @@ void ParticleFields::write(double time, std::span<const Vec3> positions, std::sp
   std::size_t bytes = positions.size() * 12 + ids.size() * 8 + 65536;
   for (const Field& field : fields) {
     if (field.components < 1 || field.values.size() != positions.size() * static_cast<std::size_t>(field.components))
-      throw std::invalid_argument("particle field '" + field.name + "': " + std::to_string(field.values.size()) +
-                                  " values for " + std::to_string(positions.size()) + " particles of " +
-                                  std::to_string(field.components) + " components");
+      throw std::invalid_argument("particle field '" + field.name + "': " + std::to_string(field.values.size()) + " values for " +
+                                  std::to_string(positions.size()) + " particles of " + std::to_string(field.components) +
+                                  " components");
     if (field.name.empty() || field.name.find('/') != std::string::npos || looks_like_a_component(field.name))
       throw std::invalid_argument("particle field '" + field.name + "': not a usable name");
     bytes += field.values.size() * 4;
   }
   if (!ids.empty() && ids.size() != positions.size())
-    throw std::invalid_argument("particle ids: " + std::to_string(ids.size()) + " for " +
-                                std::to_string(positions.size()) + " particles");
+    throw std::invalid_argument("particle ids: " + std::to_string(ids.size()) + " for " + std::to_string(positions.size()) +
+                                " particles");
   require_space(path_, static_cast<double>(bytes));
 
   const hdf5::File file = hdf5::File::open(path_);

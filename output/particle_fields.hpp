@@ -20,8 +20,7 @@ class ParticleFields {
 
   /// Appends a snapshot. `ids` may be empty; otherwise it is written as int64 "id". Particles may come in any order and
   /// in another number each time. Throws FileError (disk), std::invalid_argument (sizes or names that do not fit).
-  void write(double time, std::span<const Vec3> positions, std::span<const Field> fields,
-             std::span<const std::int64_t> ids = {});
+  void write(double time, std::span<const Vec3> positions, std::span<const Field> fields, std::span<const std::int64_t> ids = {});
 
   int snapshots() const { return snapshots_; }
   const std::filesystem::path& path() const { return path_; }

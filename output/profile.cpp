@@ -10,7 +10,7 @@ namespace undex::output {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double FlowState::* quantities[3] = {&FlowState::density, &FlowState::velocity, &FlowState::pressure};
+constexpr double FlowState::*quantities[3] = {&FlowState::density, &FlowState::velocity, &FlowState::pressure};
 
 }  // namespace
 
@@ -25,12 +25,8 @@ NamedNumbers profile_errors(const Profile& profile) {
   }
   const auto relative = [&](int k) { return largest[k] > 0 ? error[k] / volume / largest[k] : nan; };
   const auto absolute = [&](int k) { return volume > 0 ? error[k] / volume : nan; };
-  return {{"points", double(profile.size())},
-          {"l1_density", relative(0)},
-          {"l1_velocity", relative(1)},
-          {"l1_pressure", relative(2)},
-          {"l1_density_kg_m3", absolute(0)},
-          {"l1_velocity_m_s", absolute(1)},
+  return {{"points", double(profile.size())}, {"l1_density", relative(0)},       {"l1_velocity", relative(1)},
+          {"l1_pressure", relative(2)},       {"l1_density_kg_m3", absolute(0)}, {"l1_velocity_m_s", absolute(1)},
           {"l1_pressure_pa", absolute(2)}};
 }
 
@@ -77,7 +73,7 @@ Profile shells(const Profile& profile, double width) {
   return result;
 }
 
-double front_position(const Profile& profile, double FlowState::* quantity, double level, bool from_high) {
+double front_position(const Profile& profile, double FlowState::*quantity, double level, bool from_high) {
   if (profile.empty()) return nan;
   const auto at = [&](std::size_t k) -> const ProfilePoint& { return profile[from_high ? profile.size() - 1 - k : k]; };
   for (std::size_t k = 1; k < profile.size(); ++k) {

@@ -45,7 +45,7 @@ Profile shells(const Profile& profile, double width);
 
 /// Where a front stands: walking in from the high end (or from the low one) the first place where `quantity` of the run
 /// passes `level`, linear between points; NaN where it nowhere does.
-double front_position(const Profile& profile, double FlowState::* quantity, double level, bool from_high);
+double front_position(const Profile& profile, double FlowState::*quantity, double level, bool from_high);
 
 /// Largest |run - exact| of the pressure [Pa] among the points that `counts` wants; NaN without any.
 double largest_pressure_error(const Profile& profile, const std::function<bool(const ProfilePoint&)>& counts);

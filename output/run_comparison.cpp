@@ -56,9 +56,7 @@ std::string common_unit(const ComparedBlock& block) {
   return !block.rows.empty() && std::all_of(block.rows.begin(), block.rows.end(), same) ? block.rows.front().unit : "";
 }
 
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return text + (unit.empty() ? "" : " [" + unit + "]");
-}
+std::string with_unit(const std::string& text, const std::string& unit) { return text + (unit.empty() ? "" : " [" + unit + "]"); }
 
 std::string heading(const ComparedBlock& block) { return with_unit(block.title, common_unit(block)); }
 
@@ -84,8 +82,7 @@ std::size_t Quantity::count() const {
 TimeRange common_range(const Quantity& quantity) {
   TimeRange range{-forever, forever};
   for (const Series& series : quantity.runs)
-    if (!series.empty())
-      range = {std::max(range.begin, series.t.front()), std::min(range.end, series.t.back())};
+    if (!series.empty()) range = {std::max(range.begin, series.t.front()), std::min(range.end, series.t.back())};
   return quantity.count() > 0 ? range : TimeRange{};
 }
 
@@ -149,9 +146,9 @@ ComparedBlock difference_norms(const std::vector<Quantity>& quantities) {
     std::vector<double> l1, l2;
     for (const Series& series : quantity.runs) {
       const bool itself = &series == &base;
-      const Norms norms = itself ? Norms{nan, nan}
-                                 : difference_norms(series, base, std::max(range.begin, base.t.front()),
-                                                    std::min(range.end, base.t.back()));
+      const Norms norms =
+          itself ? Norms{nan, nan}
+                 : difference_norms(series, base, std::max(range.begin, base.t.front()), std::min(range.end, base.t.back()));
       l1.push_back(100 * norms.l1);
       l2.push_back(100 * norms.l2);
     }
@@ -193,9 +190,7 @@ std::string format_blocks(const std::vector<ComparedBlock>& blocks, const std::v
     }
   }
   if (reference_width > 0) reference_width = std::max(reference_width, width("reference"));
-  const auto run_width = [&](std::size_t r) {
-    return value_width[r] + (difference_width[r] > 0 ? 1 + difference_width[r] : 0);
-  };
+  const auto run_width = [&](std::size_t r) { return value_width[r] + (difference_width[r] > 0 ? 1 + difference_width[r] : 0); };
   for (std::size_t r = 0; r < labels.size(); ++r)
     if (width(labels[r]) > run_width(r)) value_width[r] += width(labels[r]) - run_width(r);
 

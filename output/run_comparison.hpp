@@ -36,10 +36,10 @@ std::vector<double> round_times(double begin, double end);
 /// A row of the table: one value per run (NaN: not known), a reference, and how far each run is from the first and from the
 /// reference, where that means something (NaN: it does not).
 struct ComparedRow {
-  std::string label, unit;             ///< the unit in which it is shown; may be empty
+  std::string label, unit;  ///< the unit in which it is shown; may be empty
   std::vector<double> values;
   double reference = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> from_first;      ///< percent; of times (unit us) the difference itself
+  std::vector<double> from_first;  ///< percent; of times (unit us) the difference itself
   std::vector<double> from_reference;
 };
 

@@ -68,8 +68,7 @@ RunFolder read_run_folder(const fs::path& path) {
   std::set<fs::path> histories;
   for (const auto& entry : fs::directory_iterator(path / "history", error))
     if (entry.path().extension() == ".csv") histories.insert(entry.path());
-  for (const fs::path& history : histories)
-    attempt([&] { run.probes[history.stem().string()] = finite_history(history); });
+  for (const fs::path& history : histories) attempt([&] { run.probes[history.stem().string()] = finite_history(history); });
   if (!mistakes.empty()) throw FileError(mistakes);
   return run;
 }

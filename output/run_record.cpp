@@ -88,9 +88,7 @@ std::string to_json(const RunRecord& record) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void write_summary(const std::filesystem::path& path, const RunRecord& record) {
-  write_text_atomically(path, to_json(record));
-}
+void write_summary(const std::filesystem::path& path, const RunRecord& record) { write_text_atomically(path, to_json(record)); }
 
 RunRecord read_summary(const std::filesystem::path& path) {
   std::ifstream file(path);

@@ -17,30 +17,30 @@ using NamedNumbers = std::vector<std::pair<std::string, double>>;
 const double* find_number(const NamedNumbers& numbers, const std::string& name);
 
 struct RunRecord {
-  std::string scene;                          ///< its name
-  std::string status;                         ///< "done", or why it ended: "stopped", "interrupted", ...
-  std::string message;                        ///< the reason, where status is not "done"; left out when empty
-  double time_s = 0;                          ///< simulated time reached
+  std::string scene;    ///< its name
+  std::string status;   ///< "done", or why it ended: "stopped", "interrupted", ...
+  std::string message;  ///< the reason, where status is not "done"; left out when empty
+  double time_s = 0;    ///< simulated time reached
   std::int64_t steps = 0;
-  std::int64_t fluid_substeps = 0;            ///< of bodies with steps of their own, beside `steps`
+  std::int64_t fluid_substeps = 0;  ///< of bodies with steps of their own, beside `steps`
   double wall_time_s = 0, cpu_time_s = 0;
   int threads = 1;
-  std::int64_t particles = 0;                 ///< moving ones, of fluid and solids
+  std::int64_t particles = 0;  ///< moving ones, of fluid and solids
   std::int64_t wall_particles = 0;
-  std::int64_t cells = 0;                     ///< of the structure's mesh
-  std::int64_t particle_updates = 0;          ///< moving particles times steps of their solver
-  std::int64_t neighbour_interactions = 0;    ///< true neighbours, directed, over all steps
-  std::int64_t peak_memory_bytes = 0;         ///< of the process, program and libraries included
-  std::int64_t solver_memory_bytes = 0;       ///< what the solvers hold of it at the end
-  double mass_error = 0, momentum_error = 0, energy_error = 0;   ///< relative
-  std::optional<double> angular_momentum_error;                  ///< relative; closed scenes of solids in particles only
-  std::optional<double> interface_energy_error;                  ///< coupled runs only
-  std::optional<double> interface_impulse_error;                 ///< the same
-  std::vector<std::string> warnings;          ///< what of the scene computes badly, one sentence each; left out when empty
-  std::string program;                        ///< version text; left out when empty
-  std::vector<std::pair<std::string, std::int64_t>> clamps;      ///< how often each floor or bound acted
-  NamedNumbers passes;                        ///< seconds per named pass
-  NamedNumbers metrics;                       ///< results of the scene's comparison
+  std::int64_t cells = 0;                                       ///< of the structure's mesh
+  std::int64_t particle_updates = 0;                            ///< moving particles times steps of their solver
+  std::int64_t neighbour_interactions = 0;                      ///< true neighbours, directed, over all steps
+  std::int64_t peak_memory_bytes = 0;                           ///< of the process, program and libraries included
+  std::int64_t solver_memory_bytes = 0;                         ///< what the solvers hold of it at the end
+  double mass_error = 0, momentum_error = 0, energy_error = 0;  ///< relative
+  std::optional<double> angular_momentum_error;                 ///< relative; closed scenes of solids in particles only
+  std::optional<double> interface_energy_error;                 ///< coupled runs only
+  std::optional<double> interface_impulse_error;                ///< the same
+  std::vector<std::string> warnings;  ///< what of the scene computes badly, one sentence each; left out when empty
+  std::string program;                ///< version text; left out when empty
+  std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
+  NamedNumbers passes;                                       ///< seconds per named pass
+  NamedNumbers metrics;                                      ///< results of the scene's comparison
 };
 
 /// The record as JSON text, keys in the order above.

@@ -26,8 +26,7 @@ double between(const Series& s, std::size_t left, double t) {
 // Integral from the first sample to each sample.
 std::vector<double> cumulative(const Series& s) {
   std::vector<double> result(s.t.size(), 0.0);
-  for (std::size_t i = 1; i < s.t.size(); ++i)
-    result[i] = result[i - 1] + 0.5 * (s.y[i] + s.y[i - 1]) * (s.t[i] - s.t[i - 1]);
+  for (std::size_t i = 1; i < s.t.size(); ++i) result[i] = result[i - 1] + 0.5 * (s.y[i] + s.y[i - 1]) * (s.t[i] - s.t[i - 1]);
   return result;
 }
 
@@ -43,8 +42,8 @@ double integral_to(const Series& s, const std::vector<double>& sums, double t) {
 
 void require_valid(const Series& series) {
   if (series.t.size() != series.y.size())
-    throw std::invalid_argument("series: " + std::to_string(series.t.size()) + " times, " +
-                                std::to_string(series.y.size()) + " values");
+    throw std::invalid_argument("series: " + std::to_string(series.t.size()) + " times, " + std::to_string(series.y.size()) +
+                                " values");
   for (std::size_t i = 0; i < series.t.size(); ++i) {
     if (!std::isfinite(series.t[i]) || !std::isfinite(series.y[i]))
       throw std::invalid_argument("series: sample " + std::to_string(i) + " is not finite");
@@ -137,10 +136,8 @@ Norms difference_norms(const Series& series, const Series& base, double a, doubl
     if (i > 0) {
       const double width = times[i] - times[i - 1], ends = std::abs(left) + std::abs(right);
       // Where the difference changes sign in between its magnitude is two triangles.
-      if (left * right < 0)
-        sum += 0.5 * width * (left * left + right * right) / ends;
-      else
-        sum += 0.5 * width * ends;
+      if (left * right < 0) sum += 0.5 * width * (left * left + right * right) / ends;
+      else sum += 0.5 * width * ends;
       squares += width / 3 * (left * left + left * right + right * right);
     }
     left = right;
@@ -151,8 +148,7 @@ Norms difference_norms(const Series& series, const Series& base, double a, doubl
 
 std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file)
-    throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the file's path");
+  if (!file) throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the file's path");
   std::vector<HistoryColumn> columns;
   bool header_seen = false;
   long line_number = 0;
@@ -185,8 +181,8 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
       if (row.empty()) break;
     }
     if (row.size() < columns.size() + 1)
-      throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) + ": expected numbers, found '" +
-                      line + "'");
+      throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) + ": expected numbers, found '" + line +
+                      "'");
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].series.append(row[0], row[i + 1]);
   }
   if (!header_seen) throw FileError("cannot read " + path.string() + ": the file is empty; a header row is expected");

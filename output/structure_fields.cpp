@@ -17,11 +17,9 @@ constexpr unsigned char vtk_hexahedron = 12;
 
 void check_fields(std::span<const Field> fields, std::size_t count, const char* place) {
   for (const Field& field : fields)
-    if (field.name.empty() || field.components < 1 ||
-        field.values.size() != count * static_cast<std::size_t>(field.components))
-      throw std::invalid_argument("structure field '" + field.name + "': " + std::to_string(field.values.size()) +
-                                  " values of " + std::to_string(field.components) + " components for " +
-                                  std::to_string(count) + " " + place);
+    if (field.name.empty() || field.components < 1 || field.values.size() != count * static_cast<std::size_t>(field.components))
+      throw std::invalid_argument("structure field '" + field.name + "': " + std::to_string(field.values.size()) + " values of " +
+                                  std::to_string(field.components) + " components for " + std::to_string(count) + " " + place);
 }
 
 void write_grid(const hdf5::File& file, const StructureSnapshot& snapshot) {

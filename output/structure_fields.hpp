@@ -15,8 +15,8 @@ namespace undex::output {
 
 /// One state of the mesh. Spans are borrowed for the call.
 struct StructureSnapshot {
-  std::span<const Vec3> positions;             ///< present positions of the nodes [m]
-  std::span<const std::array<int, 8>> cells;   ///< VTK hexahedron order
+  std::span<const Vec3> positions;            ///< present positions of the nodes [m]
+  std::span<const std::array<int, 8>> cells;  ///< VTK hexahedron order
   std::vector<Field> point_data, cell_data;
 };
 

@@ -8,12 +8,9 @@
 namespace undex::output {
 
 void write_outcome(const std::filesystem::path& path, const StudyOutcome& outcome) {
-  const nlohmann::ordered_json json{{"status", outcome.status},
-                                    {"message", outcome.message},
-                                    {"cpu_times_s", outcome.cpu_times_s},
-                                    {"wall_times_s", outcome.wall_times_s},
-                                    {"cpu_limit_s", outcome.cpu_limit_s},
-                                    {"wall_limit_s", outcome.wall_limit_s}};
+  const nlohmann::ordered_json json{{"status", outcome.status},           {"message", outcome.message},
+                                    {"cpu_times_s", outcome.cpu_times_s}, {"wall_times_s", outcome.wall_times_s},
+                                    {"cpu_limit_s", outcome.cpu_limit_s}, {"wall_limit_s", outcome.wall_limit_s}};
   write_text_atomically(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 

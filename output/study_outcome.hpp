@@ -9,10 +9,10 @@
 namespace undex::output {
 
 struct StudyOutcome {
-  std::string status;                         ///< see StudyRow
+  std::string status;  ///< see StudyRow
   std::string message;
   std::vector<double> cpu_times_s, wall_times_s;  ///< of each repetition, the kept run's first
-  double cpu_limit_s = 0, wall_limit_s = 0;   ///< the limit that ended it; 0: none did
+  double cpu_limit_s = 0, wall_limit_s = 0;       ///< the limit that ended it; 0: none did
 };
 
 /// Throws FileError.

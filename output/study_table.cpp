@@ -14,9 +14,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double least(const std::vector<double>& times) {
-  return times.empty() ? nan : *std::min_element(times.begin(), times.end());
-}
+double least(const std::vector<double>& times) { return times.empty() ? nan : *std::min_element(times.begin(), times.end()); }
 
 double bytes_per_particle(const RunRecord& record) {
   const bool known = record.particles > 0 && record.solver_memory_bytes > 0;
@@ -88,17 +86,35 @@ std::vector<std::vector<bool>> pareto_fronts(const StudyTable& table) {
 }
 
 std::string study_csv(const StudyTable& table) {
-  const auto clamps = all_names(table.rows, [](const StudyRow& row) -> const auto& { return row.record.clamps; });
-  const auto metrics = all_names(table.rows, [](const StudyRow& row) -> const auto& { return row.record.metrics; });
+  const auto clamps = all_names(
+      table.rows, [](const StudyRow& row) -> const auto& { return row.record.clamps; });
+  const auto metrics = all_names(
+      table.rows, [](const StudyRow& row) -> const auto& { return row.record.metrics; });
   std::vector<std::string> cells{"run"};
   cells.insert(cells.end(), table.axes.begin(), table.axes.end());
   for (const char* name : {"curve", "problem", "status", "message"}) cells.emplace_back(name);
   for (const std::string& error : table.errors) cells.push_back("error: " + error);
   for (const std::string& error : table.errors) cells.push_back("pareto: " + error);
-  for (const char* name : {"cpu_time_s", "cpu_time_largest_s", "wall_time_s", "timings", "threads", "time_s", "steps",
-                           "particles", "wall_particles", "cells", "particle_updates", "neighbour_interactions",
-                           "solver_memory_bytes", "bytes_per_particle", "peak_memory_bytes", "mass_error", "momentum_error",
-                           "energy_error", "interface_energy_error", "interface_impulse_error"})
+  for (const char* name : {"cpu_time_s",
+                           "cpu_time_largest_s",
+                           "wall_time_s",
+                           "timings",
+                           "threads",
+                           "time_s",
+                           "steps",
+                           "particles",
+                           "wall_particles",
+                           "cells",
+                           "particle_updates",
+                           "neighbour_interactions",
+                           "solver_memory_bytes",
+                           "bytes_per_particle",
+                           "peak_memory_bytes",
+                           "mass_error",
+                           "momentum_error",
+                           "energy_error",
+                           "interface_energy_error",
+                           "interface_impulse_error"})
     cells.emplace_back(name);
   for (const std::string& name : clamps) cells.push_back("clamp_" + name);
   cells.insert(cells.end(), metrics.begin(), metrics.end());
@@ -118,18 +134,29 @@ std::string study_csv(const StudyTable& table) {
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       cells.emplace_back(std::isnan(row.errors[e]) ? "" : fronts[e][r] ? "1" : "0");
     const double largest = row.cpu_times.empty() ? nan : *std::max_element(row.cpu_times.begin(), row.cpu_times.end());
-    cells.insert(cells.end(), {cell(least(row.cpu_times)), cell(largest), cell(least(row.wall_times)),
-                               row.cpu_times.empty() ? "" : std::to_string(row.cpu_times.size()), count(record.threads),
-                               ledger(record.time_s), count(record.steps), count(record.particles),
-                               count(record.wall_particles), count(record.cells), count(record.particle_updates),
-                               count(record.neighbour_interactions), count(record.solver_memory_bytes),
-                               cell(bytes_per_particle(record)), count(record.peak_memory_bytes), ledger(record.mass_error),
-                               ledger(record.momentum_error), ledger(record.energy_error),
+    cells.insert(cells.end(), {cell(least(row.cpu_times)),
+                               cell(largest),
+                               cell(least(row.wall_times)),
+                               row.cpu_times.empty() ? "" : std::to_string(row.cpu_times.size()),
+                               count(record.threads),
+                               ledger(record.time_s),
+                               count(record.steps),
+                               count(record.particles),
+                               count(record.wall_particles),
+                               count(record.cells),
+                               count(record.particle_updates),
+                               count(record.neighbour_interactions),
+                               count(record.solver_memory_bytes),
+                               cell(bytes_per_particle(record)),
+                               count(record.peak_memory_bytes),
+                               ledger(record.mass_error),
+                               ledger(record.momentum_error),
+                               ledger(record.energy_error),
                                ledger(record.interface_energy_error.value_or(nan)),
                                ledger(record.interface_impulse_error.value_or(nan))});
     for (const std::string& name : clamps) {
-      const auto found = std::find_if(record.clamps.begin(), record.clamps.end(),
-                                      [&](const auto& each) { return each.first == name; });
+      const auto found =
+          std::find_if(record.clamps.begin(), record.clamps.end(), [&](const auto& each) { return each.first == name; });
       cells.push_back(found == record.clamps.end() ? "" : std::to_string(found->second));
     }
     for (const std::string& name : metrics) {
@@ -180,8 +207,7 @@ std::string study_text(const StudyTable& table) {
     }
     std::vector<std::string> line = table.axes.empty() ? std::vector<std::string>{row.name} : row.values;
     line.push_back(row.status);
-    for (std::size_t e = 0; e < table.errors.size(); ++e)
-      line.push_back(error_text(row.errors[e]) + (fronts[e][r] ? "*" : " "));
+    for (std::size_t e = 0; e < table.errors.size(); ++e) line.push_back(error_text(row.errors[e]) + (fronts[e][r] ? "*" : " "));
     const double time = least(row.cpu_times), particles = double(row.record.particles);
     line.push_back(std::isnan(time) ? "-" : print(time < 1 ? "%.3f" : time < 10 ? "%.2f" : "%.1f", time));
     const double bytes = bytes_per_particle(row.record);

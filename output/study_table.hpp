@@ -10,32 +10,32 @@
 namespace undex::output {
 
 struct StudyRow {
-  std::string name;                    ///< of the run and of its folder
-  std::vector<std::string> values;     ///< its label on each axis
-  std::string curve;                   ///< what it has in common with the runs that differ in resolution alone
-  std::string problem;                 ///< errors of different problems are not compared
+  std::string name;                                     ///< of the run and of its folder
+  std::vector<std::string> values;                      ///< its label on each axis
+  std::string curve;                                    ///< what it has in common with the runs that differ in resolution alone
+  std::string problem;                                  ///< errors of different problems are not compared
   double h = std::numeric_limits<double>::quiet_NaN();  ///< its length on the axis of resolution
-  std::string status;                  ///< "done", "stopped", "limit", "interrupted", "refused", "failed", "not run"
+  std::string status;  ///< "done", "stopped", "limit", "interrupted", "refused", "failed", "not run"
   std::string message;
-  RunRecord record;                    ///< as far as known
+  RunRecord record;                           ///< as far as known
   std::vector<double> cpu_times, wall_times;  ///< [s] of each repetition; the least counts
-  std::vector<double> errors;          ///< magnitudes, NaN where unknown; of runs that are done
+  std::vector<double> errors;                 ///< magnitudes, NaN where unknown; of runs that are done
 };
 
 struct StudyTable {
   std::string title;
-  std::vector<std::string> axes;       ///< their names
-  std::string resolution;              ///< name of the axis of resolution; may be empty
-  std::vector<std::string> errors;     ///< their labels
+  std::vector<std::string> axes;    ///< their names
+  std::string resolution;           ///< name of the axis of resolution; may be empty
+  std::vector<std::string> errors;  ///< their labels
   std::vector<StudyRow> rows;
 };
 
 /// Of one error along one curve.
 struct ObservedOrders {
   std::string error, curve;
-  std::vector<double> h, errors;       ///< of the runs that have it, from coarse to fine
-  std::vector<double> between;         ///< orders between neighbours: one fewer
-  double fitted;                       ///< least squares through all of them
+  std::vector<double> h, errors;  ///< of the runs that have it, from coarse to fine
+  std::vector<double> between;    ///< orders between neighbours: one fewer
+  double fitted;                  ///< least squares through all of them
 };
 
 /// Curves with two points at least, by error. Empty without an axis of resolution.

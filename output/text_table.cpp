@@ -69,12 +69,11 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines, std::siz
 
 std::string duration(double seconds) {
   char text[40];
-  if (seconds < 100)
-    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  if (seconds < 100) std::snprintf(text, sizeof text, "%.0f s", seconds);
   else if (seconds < 6000)
-    std::snprintf(text, sizeof text, "%.0f min %02.0f s", std::floor(seconds / 60), std::floor(seconds - 60 * std::floor(seconds / 60)));
-  else
-    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600);
+    std::snprintf(text, sizeof text, "%.0f min %02.0f s", std::floor(seconds / 60),
+                  std::floor(seconds - 60 * std::floor(seconds / 60)));
+  else std::snprintf(text, sizeof text, "%.1f h", seconds / 3600);
   return text;
 }
 

@@ -26,7 +26,6 @@ std::size_t width(const std::string& text);
 std::string padded_left(const std::string& text, std::size_t columns);
 std::string padded_right(const std::string& text, std::size_t columns);
 
-
 /// Lines of cells as text, columns aligned: the first `left` of them to the left, the others to the right, three blanks apart.
 std::string aligned(const std::vector<std::vector<std::string>>& lines, std::size_t left);
 

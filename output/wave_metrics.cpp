@@ -37,10 +37,10 @@ NamedNumbers plate_metrics(const PlateHistories& histories, double mass, double 
   const Series& v = histories.velocity;
   const double cavitation = fall_to_zero(histories.pressure, peak);
   const bool reached = !std::isnan(cavitation) && !v.empty() && v.t.back() > cavitation;
-  return {{"cavitation" + label + "_s", cavitation},
-          {"impulse" + label + "_pa_s", reached ? mass * value_at(v, cavitation) : nan},
-          {"end_impulse" + label + "_pa_s",
-           reached ? mass * integral(v, cavitation, v.t.back()) / (v.t.back() - cavitation) : nan}};
+  return {
+      {"cavitation" + label + "_s", cavitation},
+      {"impulse" + label + "_pa_s", reached ? mass * value_at(v, cavitation) : nan},
+      {"end_impulse" + label + "_pa_s", reached ? mass * integral(v, cavitation, v.t.back()) / (v.t.back() - cavitation) : nan}};
 }
 
 NamedNumbers blast_metrics(const Series& pressure, const Series& reference, const std::string& name, double a, double b) {

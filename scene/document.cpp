@@ -42,8 +42,7 @@ Node converted(const toml::node& from) {
     for (const toml::node& item : *array) node.items.push_back(converted(item));
   } else if (const auto* table = from.as_table()) {
     node.kind = Node::Kind::table;
-    for (const auto& [key, each] : *table)
-      node.entries.push_back({std::string(key.str()), place(key.source()), converted(each)});
+    for (const auto& [key, each] : *table) node.entries.push_back({std::string(key.str()), place(key.source()), converted(each)});
   } else {
     node.kind = Node::Kind::other;
   }

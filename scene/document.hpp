@@ -17,12 +17,12 @@ struct Node {
   Kind kind = Kind::table;
   bool boolean = false;
   long long integer = 0;
-  double number = 0;             ///< also set for integers
+  double number = 0;  ///< also set for integers
   std::string text;
-  std::vector<Node> items;       ///< of an array
-  std::vector<Entry> entries;    ///< of a table
-  Where where;                   ///< of the value in the file
-  std::string origin;            ///< "-P key" where the command line gave it, else empty
+  std::vector<Node> items;     ///< of an array
+  std::vector<Entry> entries;  ///< of a table
+  Where where;                 ///< of the value in the file
+  std::string origin;          ///< "-P key" where the command line gave it, else empty
 
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
@@ -33,7 +33,7 @@ struct Node {
 /// A key of a table and its value.
 struct Entry {
   std::string key;
-  Where where;                   ///< of the key
+  Where where;  ///< of the key
   Node node;
 };
 

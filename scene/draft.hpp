@@ -15,15 +15,15 @@ class TableReader;
 
 struct Draft {
   Scene scene;
-  Node root;                          ///< the document, overrides applied
+  Node root;  ///< the document, overrides applied
   Report report;
   bool dimension_good = true, spacing_good = false;
   std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes,
       probe_nodes;  ///< into root, beside the scene's own vectors
   std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, probe_good;
   struct NamedSubtraction {
-    const Node* name;                 ///< as written
-    std::size_t from;                 ///< of which body; solids count on after the bodies
+    const Node* name;  ///< as written
+    std::size_t from;  ///< of which body; solids count on after the bodies
   };
   std::vector<NamedSubtraction> named_subtractions;
   const Node* structure_node = nullptr;
@@ -38,11 +38,11 @@ std::string file_text(const std::filesystem::path& file);
 /// The folder of a file of the usual name, else the file without its ending; only what a name may hold.
 std::string name_of(const std::filesystem::path& file, const char* usual_name);
 
-void read_fluid(Draft& draft);        // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
-void read_solids(Draft& draft);       // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
-void read_structure(Draft& draft);    // read_structure.cpp: [structure], [coupling]
-void read_output(Draft& draft);       // read_output.cpp: [[probes]], [output], [comparison]
-void validate(Draft& draft);          // validate.cpp: what single keys cannot tell
+void read_fluid(Draft& draft);      // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
+void read_structure(Draft& draft);  // read_structure.cpp: [structure], [coupling]
+void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [comparison]
+void validate(Draft& draft);        // validate.cpp: what single keys cannot tell
 
 /// The name of a table element in messages: "bodies.water", or "bodies.0" where it has no usable name.
 std::string element_path(const char* list, const Node& element, std::size_t index);
@@ -60,7 +60,7 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
 void resolve_subtractions(Draft& draft);
 
 /// A shape table; `allowed` are its possible types. Returns whether it was good.
-bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed,
-                Report& report, Primitive& into);
+bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed, Report& report,
+                Primitive& into);
 
 }  // namespace undex::scene

@@ -57,8 +57,7 @@ std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& w
       for (int k = 0; k < count[2]; ++k) {
         const int at[3] = {i, j, k};
         Vec3 x = Vec3::Zero();
-        for (int axis = 0; axis < dimension; ++axis)
-          x[axis] = window.low[axis] + (at[axis] + 0.5) / along * size[axis];
+        for (int axis = 0; axis < dimension; ++axis) x[axis] = window.low[axis] + (at[axis] + 0.5) / along * size[axis];
         const double in_a = a(x), in_b = b(x);
         if (in_a > depth && in_b > depth) return x;
         if (std::abs(in_a) < 2 * cell && in_b > -2 * cell) {

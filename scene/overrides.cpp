@@ -50,8 +50,7 @@ bool parse_value(const std::string& text, Node& into) {
 }
 
 /// The element of an array of tables that `part` names.
-Node* element(Node& array, const std::string& part, const std::string& path, const std::string& origin,
-              Report& report) {
+Node* element(Node& array, const std::string& part, const std::string& path, const std::string& origin, Report& report) {
   std::vector<std::string> names;
   for (Node& item : array.items) {
     const Node* name = item.find("name");
@@ -63,8 +62,7 @@ Node* element(Node& array, const std::string& part, const std::string& path, con
   const auto end = part.data() + part.size();
   if (const auto [stop, error] = std::from_chars(part.data(), end, index); error == std::errc() && stop == end) {
     if (index < array.items.size()) return &array.items[index];
-    report.add(Where{}, origin + ": " + path + " has " + std::to_string(array.items.size()) +
-                            " elements, counted from 0");
+    report.add(Where{}, origin + ": " + path + " has " + std::to_string(array.items.size()) + " elements, counted from 0");
     return nullptr;
   }
   report.add(Where{}, origin + ": nothing in " + path + " is named '" + part + "'" + suggestion(part, names));
@@ -80,8 +78,8 @@ void apply_one(const Override& given, Node& root, Report& report) {
   }
   Node value;
   if (!parse_value(given.value, value)) {
-    report.add(Where{}, origin + ": cannot read the value '" + given.value +
-                            "'; write a number, true, \"text\", [list] or {key = value}");
+    report.add(Where{},
+               origin + ": cannot read the value '" + given.value + "'; write a number, true, \"text\", [list] or {key = value}");
     return;
   }
   mark(value, origin);

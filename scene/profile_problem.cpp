@@ -16,13 +16,13 @@ bool at_rest(const sph::Body& body) { return body.velocity.isZero() && body.radi
 const materials::IdealGas* ideal_gas(const sph::Body& body) { return std::get_if<materials::IdealGas>(&body.material.law); }
 
 ProfileProblem riemann(const sph::Settings& fluid) {
-  require(fluid.bodies.size() == 2, "\"riemann\" needs two bodies side by side along x; the scene has " +
-                                        std::to_string(fluid.bodies.size()));
+  require(fluid.bodies.size() == 2,
+          "\"riemann\" needs two bodies side by side along x; the scene has " + std::to_string(fluid.bodies.size()));
   Bounds box[2];
   for (const int k : {0, 1}) {
     const sph::Body& body = fluid.bodies[k];
-    require(!body.burn, "\"riemann\" needs uniform states, but body '" + body.name +
-                            "' burns from a point; use burn = \"instantaneous\"");
+    require(!body.burn,
+            "\"riemann\" needs uniform states, but body '" + body.name + "' burns from a point; use burn = \"instantaneous\"");
     require(body.radial_velocity == 0.0 && body.velocity[1] == 0.0 && body.velocity[2] == 0.0,
             "\"riemann\" is a flow along x; body '" + body.name + "' must have no velocity across it");
     box[k] = bounds(body.shape, fluid.dimension);
@@ -30,8 +30,8 @@ ProfileProblem riemann(const sph::Settings& fluid) {
   const std::size_t left = box[0].low[0] < box[1].low[0] ? 0 : 1, right = 1 - left;
   const double interface = box[left].high[0], gap = box[right].low[0] - interface;
   require(std::abs(gap) < 1e-9 * (box[right].high[0] - box[left].low[0]),
-          "\"riemann\" needs bodies that meet in one plane across x; '" + fluid.bodies[left].name + "' ends at x = " +
-              std::to_string(interface) + " m, '" + fluid.bodies[right].name + "' begins at " +
+          "\"riemann\" needs bodies that meet in one plane across x; '" + fluid.bodies[left].name +
+              "' ends at x = " + std::to_string(interface) + " m, '" + fluid.bodies[right].name + "' begins at " +
               std::to_string(box[right].low[0]) + " m");
   return {Solution::riemann, left, right, false, Vec3(interface, 0, 0)};
 }
@@ -44,7 +44,8 @@ bool fills_a_duct(const sph::Settings& fluid, const sph::Body& body) {
     const auto* duct = std::get_if<Box>(&wall.container);
     if (duct == nullptr) return false;
     for (int a = 1; a < fluid.dimension; ++a) {
-      if (std::abs(duct->low[a] - box->low[a]) + std::abs(duct->high[a] - box->high[a]) > 1e-9 * (box->high[a] - box->low[a])) return false;
+      if (std::abs(duct->low[a] - box->low[a]) + std::abs(duct->high[a] - box->high[a]) > 1e-9 * (box->high[a] - box->low[a]))
+        return false;
       for (const char* side : {"_low", "_high"}) {
         const auto face = wall.faces.find("xyz"[a] + std::string(side));
         if (face != wall.faces.end() && face->second != sph::FaceCondition::free_slip) return false;
@@ -61,8 +62,9 @@ ProfileProblem taylor_wave(const sph::Settings& fluid) {
 }
 
 ProfileProblem sedov(const sph::Settings& fluid) {
-  const char* const wanted = "\"sedov\" needs two bodies at rest of one ideal gas (law \"ideal_gas\", the same gamma and density): "
-                             "a hot one and, round it, one whose energy is less than a thousandth of the hot one's";
+  const char* const wanted =
+      "\"sedov\" needs two bodies at rest of one ideal gas (law \"ideal_gas\", the same gamma and density): "
+      "a hot one and, round it, one whose energy is less than a thousandth of the hot one's";
   require(fluid.bodies.size() == 2, wanted);
   const auto &a = fluid.bodies[0], &b = fluid.bodies[1];
   require(ideal_gas(a) && ideal_gas(b) && ideal_gas(a)->parameters().gamma == ideal_gas(b)->parameters().gamma, wanted);

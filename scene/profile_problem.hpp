@@ -22,10 +22,10 @@ const char* solution_name(Solution solution);
 
 struct ProfileProblem {
   Solution solution = Solution::riemann;
-  std::size_t first = 0;        ///< body on the left; the charge; the hot gas; the falling gas
-  std::size_t second = 0;       ///< body on the right; the cold gas
-  bool plane = false;           ///< taylor_wave: a charge that fills a duct along x burns as in one dimension
-  Vec3 center = Vec3::Zero();   ///< where the coordinate is zero [m]; riemann: the interface, the coordinate is x itself
+  std::size_t first = 0;       ///< body on the left; the charge; the hot gas; the falling gas
+  std::size_t second = 0;      ///< body on the right; the cold gas
+  bool plane = false;          ///< taylor_wave: a charge that fills a duct along x burns as in one dimension
+  Vec3 center = Vec3::Zero();  ///< where the coordinate is zero [m]; riemann: the interface, the coordinate is x itself
 };
 
 /// Throws std::invalid_argument saying what the solution needs and the bodies do not have.

@@ -50,8 +50,7 @@ std::filesystem::path found_file(const std::filesystem::path& path, const char* 
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     if (!std::filesystem::is_regular_file(path / usual_name, ignored))
-      throw FileError(path.string() + ": the folder holds no " + usual_name + "; name " + a_kind +
-                      " file or a folder with one");
+      throw FileError(path.string() + ": the folder holds no " + usual_name + "; name " + a_kind + " file or a folder with one");
     return path / usual_name;
   }
   if (!std::filesystem::exists(path, ignored))

@@ -20,7 +20,8 @@ const Choices<FaceCondition> conditions{
 bool needs_spacing(const Node& root) {
   if (root.find("bodies")) return true;
   const Node* solids = root.find("solids");
-  return solids && std::any_of(solids->items.begin(), solids->items.end(), [](const Node& solid) { return !solid.find("spacing"); });
+  return solids &&
+         std::any_of(solids->items.begin(), solids->items.end(), [](const Node& solid) { return !solid.find("spacing"); });
 }
 
 void read_resolution(const TableReader& top, Draft& draft) {
@@ -34,14 +35,15 @@ void read_resolution(const TableReader& top, Draft& draft) {
   const TableReader table(*node, "resolution", "resolution", top.dimension(), draft.report);
   if (needs_spacing(draft.root)) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
   draft.spacing_good = table.read("spacing", lattice.spacing);
-  table.read_choice<sph::LatticeType>("lattice", lattice.type, {{"cartesian", sph::LatticeType::cartesian},
-                                                                {"rings", sph::LatticeType::rings}});
+  table.read_choice<sph::LatticeType>("lattice", lattice.type,
+                                      {{"cartesian", sph::LatticeType::cartesian}, {"rings", sph::LatticeType::rings}});
   table.read("fit", lattice.fit);
   table.read("origin", lattice.origin);
   if (const Node* turn = table.find("rotation")) {
     if (top.dimension() == 3) table.read("rotation", lattice.rotation);
     else if (turn->kind == Node::Kind::array)
-      table.complain("rotation", "resolution.rotation must be a number in degrees in two dimensions: only z is left to turn about");
+      table.complain("rotation",
+                     "resolution.rotation must be a number in degrees in two dimensions: only z is left to turn about");
     else table.read("rotation", lattice.rotation[2]);
   }
   table.read("jitter", lattice.jitter);
@@ -75,8 +77,8 @@ void read_scheme(const TableReader& top, Draft& draft) {
   for (const sph::KernelName name : sph::all_kernels)
     kernels.push_back({sph::with_kernel(name, [](auto kernel) { return kernel.name; }), name});
   table.read_choice("kernel", numerics.kernel, kernels);
-  table.read_choice<sph::Precision>("precision", numerics.precision, {{"full", sph::Precision::full},
-                                                                      {"mixed", sph::Precision::mixed}});
+  table.read_choice<sph::Precision>("precision", numerics.precision,
+                                    {{"full", sph::Precision::full}, {"mixed", sph::Precision::mixed}});
   // each kernel's own usual smoothing length
   numerics.eta = sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
   if (numerics.scheme == sph::SchemeName::monaghan_switch) numerics.beta = 2.0;
@@ -86,21 +88,26 @@ void read_scheme(const TableReader& top, Draft& draft) {
   table.read("alpha_min", numerics.alpha_min);
   if (numerics.scheme == sph::SchemeName::monaghan_switch && !(numerics.alpha > 0.0 && numerics.alpha >= numerics.alpha_min))
     table.complain(table.has("alpha_min") ? "alpha_min" : "alpha",
-                   "scheme.alpha = " + shortest(numerics.alpha) + " is the upper bound of a coefficient whose lower one is "
-                   "scheme.alpha_min = " + shortest(numerics.alpha_min) + " with scheme.name = \"monaghan_switch\": raise "
-                   "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
+                   "scheme.alpha = " + shortest(numerics.alpha) +
+                       " is the upper bound of a coefficient whose lower one is "
+                       "scheme.alpha_min = " +
+                       shortest(numerics.alpha_min) +
+                       " with scheme.name = \"monaghan_switch\": raise "
+                       "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
   table.read("shifting", numerics.shifting);
-  table.read_choice<sph::Integrator>("integrator", numerics.integrator, {{"leapfrog", sph::Integrator::leapfrog},
-                                                                         {"ssp_rk3", sph::Integrator::ssp_rk3}});
+  table.read_choice<sph::Integrator>("integrator", numerics.integrator,
+                                     {{"leapfrog", sph::Integrator::leapfrog}, {"ssp_rk3", sph::Integrator::ssp_rk3}});
   numerics.courant = sph::default_courant(numerics.integrator, numerics.kernel);
   table.read("courant", numerics.courant);
   table.read("fixed_step", numerics.fixed_step);
   if (table.read("local_steps", numerics.local_steps) && numerics.local_steps && numerics.integrator != sph::Integrator::leapfrog)
-    table.complain("local_steps", "scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; "
-                                  "leave one of them out");
+    table.complain("local_steps",
+                   "scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; "
+                   "leave one of them out");
   if (numerics.local_steps && numerics.shifting > 0.0)
-    table.complain("local_steps", "scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one "
-                                  "for all; leave one of them out");
+    table.complain("local_steps",
+                   "scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one "
+                   "for all; leave one of them out");
   table.read("signal", numerics.signal);
   table.read("h_low", numerics.h_low);
   table.read("h_high", numerics.h_high);
@@ -118,8 +125,7 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
 }
 
 bool is_gas(const FluidLaw& law) {
-  return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) ||
-         std::holds_alternative<Jwl>(law);
+  return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) || std::holds_alternative<Jwl>(law);
 }
 
 /// Where the body has its pressure under gravity, and whether it can have the pressures above and below.
@@ -129,19 +135,24 @@ void read_level(const TableReader& table, const Draft& draft, bool shape_good, b
   const std::string path = table.path_of("level");
   const Vec3& gravity = draft.scene.fluid.gravity;
   if (gravity.isZero()) {
-    table.complain("level", path + " means nothing without gravity; add gravity at the top of the file, e.g. gravity = [0, 0, -9.81], or "
-                                   "leave it out");
+    table.complain("level",
+                   path +
+                       " means nothing without gravity; add gravity at the top of the file, e.g. gravity = [0, 0, -9.81], or "
+                       "leave it out");
   } else if (!table.has("pressure") || body.density) {
     table.complain("level", path + " is where the body has its pressure: give pressure, and leave out density");
   } else if (std::holds_alternative<Jwl>(body.material.law)) {
-    table.complain("level", path + ": the law of '" + body.material.name + "' is that of a charge, which starts uniform; leave it out");
-  } else if (pressure_good && shape_good && (bounds(body.shape.base, table.dimension()).high.head(table.dimension()).array() < 1e200).all()) {
+    table.complain("level",
+                   path + ": the law of '" + body.material.name + "' is that of a charge, which starts uniform; leave it out");
+  } else if (pressure_good && shape_good &&
+             (bounds(body.shape.base, table.dimension()).high.head(table.dimension()).array() < 1e200).all()) {
     body.level = level;
     try {
       sph::hydrostatic_column(body, gravity, table.dimension());
     } catch (const std::domain_error& error) {
-      table.complain("level", path + ": with " + shortest(*body.pressure) + " Pa there the body has no hydrostatic equilibrium: " +
-                                  error.what() + "; raise pressure, or move level");
+      table.complain("level", path + ": with " + shortest(*body.pressure) +
+                                  " Pa there the body has no hydrostatic equilibrium: " + error.what() +
+                                  "; raise pressure, or move level");
     }
   }
 }
@@ -151,8 +162,8 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   const auto* products = std::get_if<Jwl>(&body.material.law);
   if (!products) {
     if (table.has("burn"))
-      table.complain("burn", table.path_of("burn") + ": the material '" + body.material.name +
-                                 "' does not burn; only law \"jwl\" does");
+      table.complain("burn",
+                     table.path_of("burn") + ": the material '" + body.material.name + "' does not burn; only law \"jwl\" does");
     return;
   }
   const Choices<bool> models{{"programmed", false}, {"instantaneous", true}};
@@ -164,15 +175,14 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   if (const Node* node = table.find("burn"); node && node->kind == Node::Kind::text) {
     table.read_choice("burn", instantaneous, models);
   } else if (node && node->kind != Node::Kind::table) {
-    table.complain("burn", table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " +
-                               node->described());
+    table.complain("burn",
+                   table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " + node->described());
   } else if (node) {
     const TableReader burn(*node, table.path_of("burn"), "burn", table.dimension(), table.report());
     burn.read_choice("model", instantaneous, models);
     if (instantaneous)
       for (const char* key : {"initiation", "speed", "width", "cj_compression"})
-        if (burn.has(key))
-          burn.complain(key, burn.path_of(key) + " means nothing where model = \"instantaneous\"; leave it out");
+        if (burn.has(key)) burn.complain(key, burn.path_of(key) + " means nothing where model = \"instantaneous\"; leave it out");
     burn.read("initiation", origin);
     burn.read("width", width);
     burn.read("speed", speed);
@@ -201,8 +211,17 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
 sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
-  sph::Body body{std::to_string(index), {Sphere{Vec3::Zero(), 0}, {}}, {"", "", TaitWater({}), 1000.0}, {}, Vec3::Zero(),
-                 {}, {}, {}, {}, false, {}};
+  sph::Body body{std::to_string(index),
+                 {Sphere{Vec3::Zero(), 0}, {}},
+                 {"", "", TaitWater({}), 1000.0},
+                 {},
+                 Vec3::Zero(),
+                 {},
+                 {},
+                 {},
+                 {},
+                 false,
+                 {}};
   table.need("name", "every body has a name");
   table.read_name("name", body.name);
   if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))
@@ -229,8 +248,8 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   if (pressure_good && !body.density) {
     const auto* products = std::get_if<Jwl>(&body.material.law);
     try {
-      const double density = density_at(body.material.law, *body.pressure,
-                                        body.energy.value_or(products ? products->parameters().E0 : 0.0));
+      const double density =
+          density_at(body.material.law, *body.pressure, body.energy.value_or(products ? products->parameters().E0 : 0.0));
       if (!(density > 0)) throw std::domain_error("it would need the density " + rounded(density) + " kg/m^3");
     } catch (const std::exception& error) {
       table.complain("pressure", table.path_of("pressure") + " = " + shortest(*body.pressure) + " Pa: " + error.what());
@@ -259,8 +278,8 @@ void read_wall(const Node& node, const std::string& path, Draft& draft) {
   table.need("name", "every wall has a name");
   table.read_name("name", wall.name);
   const bool good = table.need("shape", "a box or cylinder round the fluid") &&
-                    read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(), {"box", "cylinder"},
-                               draft.report, wall.container);
+                    read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(), {"box", "cylinder"}, draft.report,
+                               wall.container);
   FaceCondition otherwise = FaceCondition::free_slip;
   table.read_choice("condition", otherwise, conditions);
   if (good) {

@@ -41,13 +41,14 @@ template <class Parameters>
 void read_fields(const TableReader& table, Parameters& parameters, bool all_needed) {
   each_field(parameters, [&](const char* key, auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Cavitation>) {
-      table.read_choice<Cavitation>(key, value, {{"none", Cavitation::none},
-                                                 {"cutoff", Cavitation::cutoff},
-                                                 {"schmidt", Cavitation::schmidt},
-                                                 {"isentropic", Cavitation::isentropic}});
+      table.read_choice<Cavitation>(key, value,
+                                    {{"none", Cavitation::none},
+                                     {"cutoff", Cavitation::cutoff},
+                                     {"schmidt", Cavitation::schmidt},
+                                     {"isentropic", Cavitation::isentropic}});
     } else {
-      if (all_needed && !has_default(parameters, key) &&
-          !table.need(key, "a law without 'base' needs all its parameters")) return;
+      if (all_needed && !has_default(parameters, key) && !table.need(key, "a law without 'base' needs all its parameters"))
+        return;
       table.read(key, value);
     }
   });
@@ -70,8 +71,7 @@ bool rebuild(const TableReader& table, typename Law::Parameters parameters, bool
 
 bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int depth, Fluid& into);
 
-bool fluid_by_name(const Node& at, const std::string& path, const std::string& name, Draft& draft, int depth,
-                   Fluid& into) {
+bool fluid_by_name(const Node& at, const std::string& path, const std::string& name, Draft& draft, int depth, Fluid& into) {
   if (depth > deepest_base) {
     draft.report.add(at, path + ": the materials are based on each other in a circle; base one of them on the library");
     return false;
@@ -85,8 +85,8 @@ bool fluid_by_name(const Node& at, const std::string& path, const std::string& n
     into = *found;
     return true;
   }
-  unknown_material(at, path, name, find_solid(name) ? "a solid, not a fluid" : nullptr,
-                   with_own(fluid_names(), draft), draft.report);
+  unknown_material(at, path, name, find_solid(name) ? "a solid, not a fluid" : nullptr, with_own(fluid_names(), draft),
+                   draft.report);
   return false;
 }
 
@@ -147,16 +147,14 @@ bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int 
   else if (name == "barotropic_gas")
     good = rebuild<BarotropicGas>(table, parameters_of.operator()<BarotropicGas>({}), !base, into);
   else if (name == "ideal_gas") good = rebuild<IdealGas>(table, parameters_of.operator()<IdealGas>({}), !base, into);
-  else if (name == "stiffened_gas")
-    good = rebuild<StiffenedGas>(table, parameters_of.operator()<StiffenedGas>({}), !base, into);
+  else if (name == "stiffened_gas") good = rebuild<StiffenedGas>(table, parameters_of.operator()<StiffenedGas>({}), !base, into);
   else good = rebuild<Jwl>(table, parameters_of.operator()<Jwl>({}), !base, into);
   return good && report.size() == before;
 }
 
 bool read_solid_at(const Node& node, const std::string& path, Draft& draft, int depth, Solid& into);
 
-bool solid_by_name(const Node& at, const std::string& path, const std::string& name, Draft& draft, int depth,
-                   Solid& into) {
+bool solid_by_name(const Node& at, const std::string& path, const std::string& name, Draft& draft, int depth, Solid& into) {
   if (depth > deepest_base) {
     draft.report.add(at, path + ": the materials are based on each other in a circle; base one of them on the library");
     return false;
@@ -170,8 +168,8 @@ bool solid_by_name(const Node& at, const std::string& path, const std::string& n
     into = *found;
     return true;
   }
-  unknown_material(at, path, name, find_fluid(name) ? "a fluid, not a solid" : nullptr,
-                   with_own(solid_names(), draft), draft.report);
+  unknown_material(at, path, name, find_fluid(name) ? "a fluid, not a solid" : nullptr, with_own(solid_names(), draft),
+                   draft.report);
   return false;
 }
 
@@ -246,13 +244,14 @@ void read_damage(const TableReader& solid, Solid& into) {
 void check_together(const TableReader& solid, const Solid& of) {
   const auto check_melting = [&](const char* key, double T_melt, double T_room) {
     if (T_melt > T_room) return;
-    solid.complain(key, solid.path_of(key) + ".T_melt = " + shortest(T_melt) + " [K] must be greater than its T_room = " +
-                            shortest(T_room) + " [K]");
+    solid.complain(key, solid.path_of(key) + ".T_melt = " + shortest(T_melt) +
+                            " [K] must be greater than its T_room = " + shortest(T_room) + " [K]");
   };
   if (const auto* flow = std::get_if<JohnsonCook>(&of.flow)) check_melting("flow", flow->T_melt, flow->T_room);
   if (const auto* flow = std::get_if<ZerilliArmstrong>(&of.flow); flow && flow->C0 + flow->C1 <= 0)
-    solid.complain("flow", solid.path_of("flow") + ".C0 and C1 are both 0: nothing would resist the first strain; one of "
-                                                   "them must be greater than 0");
+    solid.complain("flow", solid.path_of("flow") +
+                               ".C0 and C1 are both 0: nothing would resist the first strain; one of "
+                               "them must be greater than 0");
   if (!of.damage) return;
   check_melting("damage", of.damage->T_melt, of.damage->T_room);
   const double least = of.damage->D1 + of.damage->D2 * std::exp(1.5 * of.damage->D3);
@@ -263,8 +262,8 @@ void check_together(const TableReader& solid, const Solid& of) {
 
 /// Does an own material describe a solid? Told by its keys or by what it is based on.
 bool looks_solid(const Node& node, const Draft& draft, int depth) {
-  for (const char* key : {"flow", "shear_modulus", "young_modulus", "pressure", "heat_capacity", "taylor_quinney", "spall",
-                          "damage"})
+  for (const char* key :
+       {"flow", "shear_modulus", "young_modulus", "pressure", "heat_capacity", "taylor_quinney", "spall", "damage"})
     if (node.find(key)) return true;
   const Node* base = node.kind == Node::Kind::text ? &node : node.find("base");
   if (!base || base->kind != Node::Kind::text || depth > deepest_base) return false;

@@ -10,10 +10,11 @@ namespace {
 
 const std::vector<std::string> fluid_quantities{"pressure", "velocity", "density", "void_fraction"};
 const std::vector<std::string> structure_quantities{"displacement", "velocity", "stress", "plastic_strain", "temperature"};
-const std::vector<std::string> known_particle_fields{"pressure", "density", "velocity", "void_fraction", "energy",
+const std::vector<std::string> known_particle_fields{"pressure",         "density",  "velocity",    "void_fraction", "energy",
                                                      "smoothing_length", "material", "sound_speed", "mass"};
-const std::vector<std::string> known_solid_fields{"pressure", "velocity", "von_mises", "plastic_strain", "density", "temperature",
-                                                  "displacement", "energy", "damage", "material", "sound_speed", "mass"};
+const std::vector<std::string> known_solid_fields{"pressure", "velocity",    "von_mises",    "plastic_strain",
+                                                  "density",  "temperature", "displacement", "energy",
+                                                  "damage",   "material",    "sound_speed",  "mass"};
 
 /// Reports every word that is not known, and every repetition.
 void check_words(const TableReader& table, const char* key, const std::vector<std::string>& words,
@@ -34,9 +35,8 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   if (!table.has("kind")) {
     probe.kind = draft.root.find("bodies") ? Probe::Kind::fluid : Probe::Kind::structure;
   } else {
-    table.read_choice<Probe::Kind>("kind", probe.kind, {{"fluid", Probe::Kind::fluid},
-                                                        {"wall", Probe::Kind::wall},
-                                                        {"structure", Probe::Kind::structure}});
+    table.read_choice<Probe::Kind>(
+        "kind", probe.kind, {{"fluid", Probe::Kind::fluid}, {"wall", Probe::Kind::wall}, {"structure", Probe::Kind::structure}});
   }
   table.need("point", "give its position in m");
   const bool placed = table.read("point", probe.point);
@@ -59,8 +59,7 @@ void read_output_table(const TableReader& top, Draft& draft) {
   const TableReader table(*node, "output", "output", top.dimension(), draft.report);
   table.read("history_interval", output.history_interval);
   table.read("field_interval", output.field_interval);
-  if (table.read("field_times", output.field_times))
-    std::sort(output.field_times.begin(), output.field_times.end());
+  if (table.read("field_times", output.field_times)) std::sort(output.field_times.begin(), output.field_times.end());
   if (table.read("particle_fields", output.particle_fields))
     check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
   table.read("structure_fields", output.structure_fields);
@@ -74,7 +73,8 @@ void read_wave(const TableReader& table, const TableReader& top, Draft& draft) {
   Start::Wave& wave = start.wave;
   const bool asked = start.kind == Start::Kind::plane_wave;
   for (const char* key : {"axis", "towards", "front", "peak", "decay"})
-    if (!asked && table.has(key)) table.complain(key, table.path_of(key) + " is of start.kind = \"plane_wave\"; leave it out or set the kind");
+    if (!asked && table.has(key))
+      table.complain(key, table.path_of(key) + " is of start.kind = \"plane_wave\"; leave it out or set the kind");
   if (!asked) return;
   if (table.has("time")) table.complain("time", "start.time is of start.kind = \"spherical\"; leave it out");
   table.need("axis", "name the axis along which the wave runs");
@@ -89,8 +89,9 @@ void read_wave(const TableReader& table, const TableReader& top, Draft& draft) {
     if (wave.axis >= top.dimension())
       table.complain("axis", "start.axis: the scene has dimension = " + std::to_string(top.dimension()) + " and no such axis");
     else if (draft.scene.fluid.symmetry.axis[wave.axis])
-      table.complain("axis", "start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave "
-                             "the plane out, or let the wave run along another axis");
+      table.complain("axis",
+                     "start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave "
+                     "the plane out, or let the wave run along another axis");
   }
   const auto& bodies = draft.scene.fluid.bodies;
   if (bodies.empty()) {
@@ -98,7 +99,8 @@ void read_wave(const TableReader& table, const TableReader& top, Draft& draft) {
     return;
   }
   if (start.body.empty() && bodies.size() > 1) {
-    table.complain("body", "start.kind = \"plane_wave\": the scene has several bodies; name the one that carries the wave by start.body");
+    table.complain("body",
+                   "start.kind = \"plane_wave\": the scene has several bodies; name the one that carries the wave by start.body");
     return;
   }
   for (const sph::Body& body : bodies)
@@ -111,9 +113,9 @@ void read_start(const TableReader& top, Draft& draft) {
   const Node* node = top.table("start");
   if (!node) return;
   const TableReader table(*node, "start", "start", top.dimension(), draft.report);
-  table.read_choice<Start::Kind>("kind", start.kind, {{"plain", Start::Kind::plain},
-                                                      {"spherical", Start::Kind::spherical},
-                                                      {"plane_wave", Start::Kind::plane_wave}});
+  table.read_choice<Start::Kind>(
+      "kind", start.kind,
+      {{"plain", Start::Kind::plain}, {"spherical", Start::Kind::spherical}, {"plane_wave", Start::Kind::plane_wave}});
   if (table.read("body", start.body) && !start.body.empty()) {
     std::vector<std::string> names;
     for (const sph::Body& body : draft.scene.fluid.bodies) names.push_back(body.name);
@@ -133,7 +135,8 @@ void check_taylor_plate(const TableReader& table, const Draft& draft) {
   const auto* plate = scene.structure ? std::get_if<fem::PlateMesh>(&scene.structure->mesh) : nullptr;
   const std::string face = std::string(1, "xyz"[wave.axis]) + (wave.upward ? "_low" : "_high");
   if (scene.start.kind != Start::Kind::plane_wave || !plate)
-    table.complain("kind", "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
+    table.complain("kind",
+                   "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
   else if (scene.structure->wet_faces != std::vector<std::string>{face})
     table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
                                "'; write structure.wet = [\"" + face + "\"]");
@@ -152,9 +155,11 @@ void check_free_field(const TableReader& table, const Draft& draft) {
   };
   const auto charges = std::count_if(bodies.begin(), bodies.end(), is_charge);
   if (draft.scene.fluid.dimension != 3 || bodies.size() != 2 || charges != 1)
-    table.complain("kind", "comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and "
-                           "the medium from which it is subtracted");
-  if (std::none_of(draft.scene.probes.begin(), draft.scene.probes.end(), [](const Probe& p) { return p.kind == Probe::Kind::fluid; }))
+    table.complain("kind",
+                   "comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and "
+                   "the medium from which it is subtracted");
+  if (std::none_of(draft.scene.probes.begin(), draft.scene.probes.end(),
+                   [](const Probe& p) { return p.kind == Probe::Kind::fluid; }))
     table.complain("kind", "comparison.kind = \"free_field\" compares the pressures of fluid probes; add [[probes]]");
 }
 
@@ -163,8 +168,7 @@ void read_profile(const TableReader& table, Draft& draft) {
   Comparison& comparison = draft.scene.comparison;
   if (comparison.kind != "profile") {
     for (const char* key : {"solution", "window", "core"})
-      if (table.has(key))
-        table.complain(key, table.path_of(key) + " belongs to kind = \"profile\"; leave it out");
+      if (table.has(key)) table.complain(key, table.path_of(key) + " belongs to kind = \"profile\"; leave it out");
     return;
   }
   std::vector<double> window;
@@ -202,9 +206,13 @@ void read_comparison(const TableReader& top, Draft& draft) {
   if (!node) return;
   const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
   table.read_choice<std::string>("kind", comparison.kind,
-                                 {{"none", "none"}, {"rigid_cylinder", "rigid_cylinder"}, {"tube", "tube"},
-                                  {"taylor_bar", "taylor_bar"}, {"taylor_plate", "taylor_plate"},
-                                   {"free_field", "free_field"}, {"profile", "profile"}});
+                                 {{"none", "none"},
+                                  {"rigid_cylinder", "rigid_cylinder"},
+                                  {"tube", "tube"},
+                                  {"taylor_bar", "taylor_bar"},
+                                  {"taylor_plate", "taylor_plate"},
+                                  {"free_field", "free_field"},
+                                  {"profile", "profile"}});
   read_profile(table, draft);
   if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
     std::vector<std::string> names;
@@ -217,8 +225,9 @@ void read_comparison(const TableReader& top, Draft& draft) {
     const bool rod = draft.scene.structure ? std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh)
                                            : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
     if (!rod)
-      table.complain("kind", "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
-                             "of [[solids]], a cylinder; there is none");
+      table.complain("kind",
+                     "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
+                     "of [[solids]], a cylinder; there is none");
   } else if (comparison.kind == "free_field") {
     check_free_field(table, draft);
   } else if (comparison.kind != "none" && comparison.kind != "profile") {

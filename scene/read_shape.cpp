@@ -13,8 +13,8 @@ const char* const size_remedy = "say where it is, in m";
 
 bool ordered(const TableReader& table, const char* low_key, double low, const char* high_key, double high) {
   if (low < high) return true;
-  table.complain(high_key, table.path_of(high_key) + " = " + shortest(high) + " must be greater than " + low_key +
-                               " = " + shortest(low));
+  table.complain(high_key,
+                 table.path_of(high_key) + " = " + shortest(high) + " must be greater than " + low_key + " = " + shortest(low));
   return false;
 }
 
@@ -46,9 +46,7 @@ bool read_extent(const TableReader& table, int axis, double& low, double& high) 
 }
 
 /// Where it is present it must be good.
-bool read_if_there(const TableReader& table, const char* key, Vec3& into) {
-  return !table.has(key) || table.read(key, into);
-}
+bool read_if_there(const TableReader& table, const char* key, Vec3& into) { return !table.has(key) || table.read(key, into); }
 
 bool read_axis_if_there(const TableReader& table, int& axis) {
   axis = 2;
@@ -64,8 +62,8 @@ bool read_one(const TableReader& table, const std::string& type, Primitive& into
     Slab slab{0, 0, 0};
     bool good = table.need("axis", "say across which axis it lies, e.g. axis = \"x\"") && table.read_axis("axis", slab.axis);
     if (good && slab.axis >= table.dimension()) {
-      table.complain("axis", table.path_of("axis") + ": the scene has dimension = " +
-                                 std::to_string(table.dimension()) + ", so no such axis");
+      table.complain("axis", table.path_of("axis") + ": the scene has dimension = " + std::to_string(table.dimension()) +
+                                 ", so no such axis");
       good = false;
     }
     double low = 0, high = 0;
@@ -101,8 +99,8 @@ bool read_one(const TableReader& table, const std::string& type, Primitive& into
 
 }  // namespace
 
-bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed,
-                Report& report, Primitive& into) {
+bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed, Report& report,
+                Primitive& into) {
   const std::string example = "{type = \"" + allowed.front() + "\", ...}";
   if (node.kind != Node::Kind::table) {
     report.add(node, path + " must be a table, " + example + ", not " + node.described());

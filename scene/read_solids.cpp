@@ -28,7 +28,8 @@ void read_spin(const TableReader& table, Vec3& into) {
 sph::SolidBody read_solid(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   const int dimension = draft.scene.fluid.dimension;
   const TableReader table(node, path, "solids", dimension, draft.report);
-  sph::SolidBody solid{.name = std::to_string(index), .shape = {Sphere{Vec3::Zero(), 0}, {}}, .material = {}, .spacing = {}, .wet = {}};
+  sph::SolidBody solid{
+      .name = std::to_string(index), .shape = {Sphere{Vec3::Zero(), 0}, {}}, .material = {}, .spacing = {}, .wet = {}};
   table.need("name", "every solid has a name");
   table.read_name("name", solid.name);
   if (table.need("shape", "e.g. shape = {type = \"sphere\", radius = 0.01}"))
@@ -37,22 +38,26 @@ sph::SolidBody read_solid(const Node& node, const std::string& path, Draft& draf
   read_subtractions(table, draft, draft.scene.fluid.bodies.size() + index, solid.shape.removed);
   if (table.need("material", "e.g. material = \"al-5083-h116\" ('undex materials' lists them)"))
     read_solid_material(*table.find("material"), table.path_of("material"), draft, solid.material);
-  table.read_choice<Description>("description", solid.description, {{"total_lagrangian", Description::total_lagrangian},
-                                                                    {"updated_lagrangian", Description::updated_lagrangian}});
+  table.read_choice<Description>(
+      "description", solid.description,
+      {{"total_lagrangian", Description::total_lagrangian}, {"updated_lagrangian", Description::updated_lagrangian}});
   table.read("spacing", solid.spacing);
   const bool round = shape_good && is_round(solid.shape.base, dimension);
   if (round) solid.lattice = LatticeType::rings;
-  table.read_choice<LatticeType>("lattice", solid.lattice, {{"cartesian", LatticeType::cartesian}, {"rings", LatticeType::rings}});
+  table.read_choice<LatticeType>("lattice", solid.lattice,
+                                 {{"cartesian", LatticeType::cartesian}, {"rings", LatticeType::rings}});
   if (shape_good && !round && solid.lattice == LatticeType::rings)
-    table.complain("lattice", table.path_of("lattice") + " = \"rings\" needs a cylinder or tube, round in the scene; take \"cartesian\"");
+    table.complain("lattice",
+                   table.path_of("lattice") + " = \"rings\" needs a cylinder or tube, round in the scene; take \"cartesian\"");
   table.read("velocity", solid.velocity);
   read_spin(table, solid.spin);
   table.read("residual_stress", solid.residual_stress);
   const bool disc = round ? std::holds_alternative<Cylinder>(solid.shape.base)
                           : dimension == 2 && std::holds_alternative<Sphere>(solid.shape.base);
   if (shape_good && solid.residual_stress != 0 && (!disc || table.has("subtract")))
-    table.complain("residual_stress", table.path_of("residual_stress") + " needs a whole cylinder or disc: elsewhere that stress is "
-                                                                         "not in equilibrium; leave it out");
+    table.complain("residual_stress", table.path_of("residual_stress") +
+                                          " needs a whole cylinder or disc: elsewhere that stress is "
+                                          "not in equilibrium; leave it out");
   if (table.read("wet", solid.wet) && shape_good) {
     const std::vector<std::string> known = shape_faces(solid.shape.base, dimension, draft.scene.fluid.symmetry.axis);
     for (const std::string& face : solid.wet)
@@ -82,8 +87,8 @@ void read_plane(const Node& node, std::size_t index, Draft& draft) {
   RigidPlane plane;
   if (table.need("axis", "say across which axis the plane lies, e.g. axis = \"z\"") && table.read_axis("axis", plane.axis) &&
       plane.axis >= table.dimension())
-    table.complain("axis", table.path_of("axis") + ": the scene has dimension = " + std::to_string(table.dimension()) +
-                               ", so no such axis");
+    table.complain(
+        "axis", table.path_of("axis") + ": the scene has dimension = " + std::to_string(table.dimension()) + ", so no such axis");
   table.read("position", plane.position);
   table.read_choice<bool>("free_side", plane.body_above, {{"above", true}, {"below", false}});
   draft.scene.fluid.planes.push_back(plane);

@@ -102,8 +102,10 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::ElementKind element,
     return false;
   }
   if (element == fem::ElementKind::shell && (type->text == "gmsh" || type->text == "rod"))
-    table.complain("element", table.path_of("element") + " = \"shell\" needs a wall whose thickness direction is known, that of "
-                              "a tube, ring or plate; use \"hexahedron\" for a " + type->text);
+    table.complain("element", table.path_of("element") +
+                                  " = \"shell\" needs a wall whose thickness direction is known, that of "
+                                  "a tube, ring or plate; use \"hexahedron\" for a " +
+                                  type->text);
   if (type->text == "gmsh") {
     const TableReader shape(node, path, "structure.gmsh", 3, report);
     std::string file;
@@ -136,8 +138,8 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::ElementKind element,
     into = rod;
   } else {
     const TubeShape& t = std::get<TubeShape>(shape);
-    fem::TubeMesh tube{.axis = t.axis, .center = t.center, .inner_radius = t.inner, .outer_radius = t.outer,
-                       .low = t.low, .high = t.high};
+    fem::TubeMesh tube{
+        .axis = t.axis, .center = t.center, .inner_radius = t.inner, .outer_radius = t.outer, .low = t.low, .high = t.high};
     read_cells(table, draft, element, tube);
     into = tube;
   }
@@ -200,18 +202,19 @@ void read_structure(Draft& draft) {
     const TableReader table(*node, "coupling", "coupling", 3, draft.report);
     table.read("slip", draft.scene.coupling.free_slip);
     table.read("window", draft.scene.coupling.window);
-    table.read_choice<coupling::SolidContact>("solids", draft.scene.coupling.solids,
-                                              {{"particles", coupling::SolidContact::particles},
-                                               {"surface", coupling::SolidContact::surface}});
+    table.read_choice<coupling::SolidContact>(
+        "solids", draft.scene.coupling.solids,
+        {{"particles", coupling::SolidContact::particles}, {"surface", coupling::SolidContact::surface}});
     if (!top.has("structure") && !top.has("solids"))
-      draft.report.add(*node, "[coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one");
+      draft.report.add(*node,
+                       "[coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one");
   }
   const Node* node = top.table("structure");
   if (!node) return;
   draft.structure_node = node;
   if (draft.dimension_good && draft.scene.fluid.dimension != 3) {
-    draft.report.add(*node, "[structure] needs dimension = 3, but the scene has dimension = " +
-                                std::to_string(draft.scene.fluid.dimension));
+    draft.report.add(
+        *node, "[structure] needs dimension = 3, but the scene has dimension = " + std::to_string(draft.scene.fluid.dimension));
   }
   const TableReader table(*node, "structure", "structure", 3, draft.report);
   fem::Settings structure;

@@ -23,11 +23,11 @@ struct StudyDraft {
   Node root;
   Report report;
   std::vector<std::filesystem::path> scenes;
-  const Node* scene_node = nullptr;                       ///< where they are named; null: the folder's own
-  StudyValue common;                                      ///< what every run sets: threads, and `settings`
+  const Node* scene_node = nullptr;  ///< where they are named; null: the folder's own
+  StudyValue common;                 ///< what every run sets: threads, and `settings`
   std::vector<Where> common_places;
-  std::vector<std::vector<std::vector<Where>>> places;    ///< by axis, value, setting
-  std::vector<Where> key_places;                          ///< by axis; line 0 where it has no key
+  std::vector<std::vector<std::vector<Where>>> places;                ///< by axis, value, setting
+  std::vector<Where> key_places;                                      ///< by axis; line 0 where it has no key
   std::vector<std::map<std::size_t, std::set<std::size_t>>> exclude;  ///< rules: indices of values by axis
 };
 
@@ -61,8 +61,7 @@ std::string label_of(const Node& node) {
 }
 
 /// The leaves of a variant's table are settings; a quoted path sets its value as a whole.
-void collect_settings(const Node& table, const std::string& path, StudyValue& value, std::vector<Where>& places,
-                      Report& report) {
+void collect_settings(const Node& table, const std::string& path, StudyValue& value, std::vector<Where>& places, Report& report) {
   for (const Entry* entry : in_file_order(table)) {
     const std::string key = path.empty() ? entry->key : path + '.' + entry->key;
     const bool whole = entry->key.find('.') != std::string::npos;
@@ -77,13 +76,11 @@ void collect_settings(const Node& table, const std::string& path, StudyValue& va
   }
 }
 
-void read_values(const TableReader& table, const std::string& key, StudyAxis& axis,
-                 std::vector<std::vector<Where>>& places) {
+void read_values(const TableReader& table, const std::string& key, StudyAxis& axis, std::vector<std::vector<Where>>& places) {
   const Node* values = table.find("values");
   if (!values || values->kind != Node::Kind::array || values->items.empty()) {
     if (values)
-      table.complain("values",
-                     table.path_of("values") + " must be a list of at least one value, not " + values->described());
+      table.complain("values", table.path_of("values") + " must be a list of at least one value, not " + values->described());
     else table.need("values", "list the values of " + key + ", e.g. values = [0.002, 0.001]");
     return;
   }
@@ -97,8 +94,7 @@ void read_values(const TableReader& table, const std::string& key, StudyAxis& ax
   for (std::size_t i = 0; i < values->items.size(); ++i) {
     const Node& item = values->items[i];
     if (item.kind == Node::Kind::other) {
-      table.report().add(item,
-                         table.path_of("values") + " has " + item.described() + ", which no setting of a scene can be");
+      table.report().add(item, table.path_of("values") + " has " + item.described() + ", which no setting of a scene can be");
       continue;
     }
     StudyValue value{labels.empty() ? label_of(item) : labels[i], {{key, toml_value(item)}}, {}};
@@ -152,8 +148,7 @@ void read_axes(const TableReader& top, StudyDraft& draft) {
     std::string key;
     if (table.has("variants")) {
       for (const char* other : {"key", "values", "labels"})
-        if (table.has(other))
-          table.complain(other, table.path_of(other) + " and variants exclude each other; give one of them");
+        if (table.has(other)) table.complain(other, table.path_of(other) + " and variants exclude each other; give one of them");
       read_variants(table, axis, places);
     } else if (table.need("key",
                           "give the key that varies, e.g. key = \"resolution.spacing\", with values = [...]; or "
@@ -166,9 +161,8 @@ void read_axes(const TableReader& top, StudyDraft& draft) {
     }
     if (axis.name.empty()) continue;
     if (const auto names = axis_names(study); std::find(names.begin(), names.end(), axis.name) != names.end()) {
-      table.complain("name", axis.name == "scene"
-                                 ? "an axis cannot be named 'scene' beside scenes = [...]; name it otherwise"
-                                 : "two axes are named '" + axis.name + "'; name them differently");
+      table.complain("name", axis.name == "scene" ? "an axis cannot be named 'scene' beside scenes = [...]; name it otherwise"
+                                                  : "two axes are named '" + axis.name + "'; name them differently");
       continue;
     }
     check_labels(axis, *nodes[i], draft.report);
@@ -266,8 +260,7 @@ void read_errors(const TableReader& top, StudyDraft& draft) {
       table.read("source", error.source);
       table.read("label", error.label);
     } else {
-      draft.report.add(item,
-                       "errors: " + item.described() + " is neither the name of a metric nor {metric = ..., source = ...}");
+      draft.report.add(item, "errors: " + item.described() + " is neither the name of a metric nor {metric = ..., source = ...}");
       continue;
     }
     if (error.label.empty()) error.label = error.metric + (error.source.empty() ? "" : " from " + error.source);
@@ -341,11 +334,10 @@ void expand(StudyDraft& draft) {
   double count = 1;
   for (const StudyAxis& axis : study.axes) count *= static_cast<double>(axis.values.size());
   if (count > most_runs) {
-    draft.report.add(Where{},
-                     "the study has " + rounded(count) + " runs, more than " + std::to_string(most_runs) + "; split it");
+    draft.report.add(Where{}, "the study has " + rounded(count) + " runs, more than " + std::to_string(most_runs) + "; split it");
     return;
   }
-  const bool sound = draft.report.empty();                // else the names may be the fault of what has been reported
+  const bool sound = draft.report.empty();  // else the names may be the fault of what has been reported
   std::set<std::string> names;
   for (std::size_t number = 0; number < static_cast<std::size_t>(count); ++number) {
     StudyRun run;
@@ -434,8 +426,10 @@ void read_runs(StudyDraft& draft) {
     }
   }
   for (const Mistake& each : mistakes) {
-    const std::string runs = each.runs == study.runs.size() ? "" :
-        " (run " + each.first_run + (each.runs > 1 ? " and " + std::to_string(each.runs - 1) + " more" : "") + ")";
+    const std::string runs =
+        each.runs == study.runs.size()
+            ? ""
+            : " (run " + each.first_run + (each.runs > 1 ? " and " + std::to_string(each.runs - 1) + " more" : "") + ")";
     draft.report.add(each.place.value, each.message + runs);
   }
 }

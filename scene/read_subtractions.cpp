@@ -68,8 +68,7 @@ void resolve_subtractions(Draft& draft) {
       const Node* subtract = removed.node->find("subtract");
       if (subtract && subtract->kind == Node::Kind::array && !subtract->items.empty())
         draft.report.add(*node, path + ": '" + node->text + "' itself has subtractions; subtract plain shapes instead");
-      else if (removed.shape_good)
-        parts[from].shape->removed.push_back(removed.shape->base);
+      else if (removed.shape_good) parts[from].shape->removed.push_back(removed.shape->base);
     }
   }
 }

@@ -22,17 +22,17 @@ struct Start {
   /// plane_wave: one body carries a plane wave at time zero.
   enum class Kind { plain, spherical, plane_wave };
   Kind kind = Kind::plain;
-  std::string body;              ///< the charge, or the body that carries the wave; default: the only spherical body of gas or
-                                 ///< products, the only body
-  std::optional<double> time;    ///< [s] when particles take over; default: when the front is a kernel's reach from the obstacle
+  std::string body;            ///< the charge, or the body that carries the wave; default: the only spherical body of gas or
+                               ///< products, the only body
+  std::optional<double> time;  ///< [s] when particles take over; default: when the front is a kernel's reach from the obstacle
   struct Wave {
-    int axis = 2;                ///< along which it runs
-    bool upward = true;          ///< to larger coordinates?
-    double front = 0;            ///< where its front is [m]
-    double peak = 0;             ///< above the pressure at rest [Pa]
-    double decay = 0;            ///< [s]
+    int axis = 2;        ///< along which it runs
+    bool upward = true;  ///< to larger coordinates?
+    double front = 0;    ///< where its front is [m]
+    double peak = 0;     ///< above the pressure at rest [Pa]
+    double decay = 0;    ///< [s]
   };
-  Wave wave;                     ///< of kind plane_wave
+  Wave wave;  ///< of kind plane_wave
 };
 
 /// A point whose values are written as a history.
@@ -44,29 +44,29 @@ struct Probe {
   };
   std::string name;
   Kind kind = Kind::fluid;
-  Vec3 point = Vec3::Zero();              ///< [m]
-  std::vector<std::string> quantities;    ///< fluid, wall: pressure, velocity, density, void_fraction;
-                                          ///< structure: displacement, velocity, stress, plastic_strain, temperature
+  Vec3 point = Vec3::Zero();            ///< [m]
+  std::vector<std::string> quantities;  ///< fluid, wall: pressure, velocity, density, void_fraction;
+                                        ///< structure: displacement, velocity, stress, plastic_strain, temperature
 };
 
 /// What is written, and how often. Zero interval: never.
 struct Output {
-  double history_interval = 0;            ///< [s]; 0: every step
-  double field_interval = 0;              ///< [s] between field snapshots
-  std::vector<double> field_times;        ///< [s] further snapshots at these times
+  double history_interval = 0;      ///< [s]; 0: every step
+  double field_interval = 0;        ///< [s] between field snapshots
+  std::vector<double> field_times;  ///< [s] further snapshots at these times
   std::vector<std::string> particle_fields{"pressure", "density", "velocity", "void_fraction"};
-                                          ///< also: energy, smoothing_length, material, sound_speed, mass
+  ///< also: energy, smoothing_length, material, sound_speed, mass
   bool structure_fields = true;
   std::vector<std::string> solid_fields{"pressure", "velocity", "von_mises", "plastic_strain"};
-                                          ///< also: density, temperature, displacement, energy, damage, material,
-                                          ///< sound_speed, mass
+  ///< also: density, temperature, displacement, energy, damage, material,
+  ///< sound_speed, mass
 };
 
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
-  std::string kind;       ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile", "taylor_plate", "free_field"
-  std::string probe;      ///< the probe it reads
-  std::string reference;  ///< CSV path, relative to the scene file; may be empty
+  std::string kind;                  ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile", "taylor_plate", "free_field"
+  std::string probe;                 ///< the probe it reads
+  std::string reference;             ///< CSV path, relative to the scene file; may be empty
   std::optional<Solution> solution;  ///< of a profile
   /// Of a profile: least and largest coordinate that is compared [m].
   double window_low = -std::numeric_limits<double>::infinity(), window_high = std::numeric_limits<double>::infinity();
@@ -75,9 +75,9 @@ struct Comparison {
 
 struct Scene {
   std::string name, title;
-  std::filesystem::path file;             ///< where it was read from
-  double end_time = 0;                    ///< [s]
-  sph::Settings fluid;                    ///< everything in particles; without bodies where there is no fluid
+  std::filesystem::path file;  ///< where it was read from
+  double end_time = 0;         ///< [s]
+  sph::Settings fluid;         ///< everything in particles; without bodies where there is no fluid
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;

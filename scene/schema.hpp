@@ -10,9 +10,9 @@ namespace undex::scene {
 
 struct Key {
   std::string name;
-  std::string unit;           ///< empty: none
+  std::string unit;                 ///< empty: none
   double low = -1e30, high = 1e30;  ///< of a number, or of each component of a vector
-  bool above_low = false;     ///< must be greater than `low`, not merely at least
+  bool above_low = false;           ///< must be greater than `low`, not merely at least
 };
 
 /// A kind of table: "" is the top of the file, "shape.box" a shape of type "box".

@@ -26,8 +26,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }
 
 bool contains(std::string_view whole, std::string_view part) {
-  return std::search(whole.begin(), whole.end(), part.begin(), part.end(),
-                     [](char x, char y) { return lower(x) == lower(y); }) != whole.end();
+  return std::search(whole.begin(), whole.end(), part.begin(), part.end(), [](char x, char y) { return lower(x) == lower(y); }) !=
+         whole.end();
 }
 
 }  // namespace
@@ -44,8 +44,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   if (best) return *best;
   // "plane" for "planes_of_symmetry", "density0" for "density"; or a shortened word
   for (const std::string& candidate : candidates)
-    if (word.size() >= 4 && candidate.size() >= 4 && (contains(candidate, word) || contains(word, candidate)))
-      return candidate;
+    if (word.size() >= 4 && candidate.size() >= 4 && (contains(candidate, word) || contains(word, candidate))) return candidate;
   return "";
 }
 

@@ -31,14 +31,14 @@ void report_unknown_keys(const Node& node, const std::string& path, const Sectio
     const std::vector<std::string> names = known.key_names();
     std::string remedy;
     if (const std::string near = nearest(entry.key, names); !near.empty()) remedy = "did you mean '" + near + "'?";
-    else if (const std::string home = known.name.starts_with("study") ? "" : home_of(entry.key); !home.empty()) remedy = "it belongs to " + home;
+    else if (const std::string home = known.name.starts_with("study") ? "" : home_of(entry.key); !home.empty())
+      remedy = "it belongs to " + home;
     else remedy = "known: " + listed(names);
     report.add(entry, "unknown key '" + entry.key + "' " + table_name(path) + "; " + remedy);
   }
 }
 
-TableReader::TableReader(const Node& node, std::string path, std::string_view section_name, int dimension,
-                         Report& report)
+TableReader::TableReader(const Node& node, std::string path, std::string_view section_name, int dimension, Report& report)
     : node_(node), path_(std::move(path)), section_(section(section_name)), dimension_(dimension), report_(report) {
   report_unknown_keys(node_, path_, section_, report_);
 }
@@ -69,10 +69,9 @@ bool TableReader::need(const char* key, const std::string& remedy) const {
 
 bool TableReader::in_range(const char* key, const Node& at, double value) const {
   const Key& limits = *section_.find(key);
-  if (std::isfinite(value) && value <= limits.high && (limits.above_low ? value > limits.low : value >= limits.low))
-    return true;
-  report_.add(at, path_of(key) + " = " + shortest(value) + (limits.unit.empty() ? "" : " [" + limits.unit + "]") +
-                      " must be " + range_in_words(limits));
+  if (std::isfinite(value) && value <= limits.high && (limits.above_low ? value > limits.low : value >= limits.low)) return true;
+  report_.add(at, path_of(key) + " = " + shortest(value) + (limits.unit.empty() ? "" : " [" + limits.unit + "]") + " must be " +
+                      range_in_words(limits));
   return false;
 }
 
@@ -179,9 +178,10 @@ bool TableReader::read(const char* key, Vec3& into) const {
     into = Vec3(found->number, 0, 0);
     return true;
   }
-  const std::string wanted = dimension_ == 3 ? "an array of 3 numbers"
-                             : "an array of " + std::to_string(dimension_) + " (or 3) numbers, as the scene has " +
-                                   "dimension = " + std::to_string(dimension_);
+  const std::string wanted = dimension_ == 3
+                                 ? "an array of 3 numbers"
+                                 : "an array of " + std::to_string(dimension_) + " (or 3) numbers, as the scene has " +
+                                       "dimension = " + std::to_string(dimension_);
   if (found->kind != Node::Kind::array ||
       (found->items.size() != static_cast<std::size_t>(dimension_) && found->items.size() != 3)) {
     wrong_type(key, *found, wanted);

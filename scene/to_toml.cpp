@@ -89,19 +89,25 @@ Pairs shape_pairs(const Primitive& shape, const Writer& writer) {
       return {{"type", quoted("box")}, {"low", writer.vector(box.low)}, {"high", writer.vector(box.high)}};
     }
     Pairs operator()(const Slab& slab) const {
-      return {{"type", quoted("slab")}, {"axis", quoted(axis_name(slab.axis))}, {"low", number(slab.low)},
+      return {{"type", quoted("slab")},
+              {"axis", quoted(axis_name(slab.axis))},
+              {"low", number(slab.low)},
               {"high", number(slab.high)}};
     }
     Pairs operator()(const Sphere& sphere) const {
       return {{"type", quoted("sphere")}, {"center", writer.vector(sphere.center)}, {"radius", number(sphere.radius)}};
     }
     Pairs operator()(const Cylinder& c) const {
-      return {{"type", quoted("cylinder")}, {"axis", quoted(axis_name(c.axis))}, {"center", writer.vector(c.center)},
-              {"radius", number(c.radius)}, {"low", number(c.low)}, {"high", number(c.high)}};
+      return {{"type", quoted("cylinder")},
+              {"axis", quoted(axis_name(c.axis))},
+              {"center", writer.vector(c.center)},
+              {"radius", number(c.radius)},
+              {"low", number(c.low)},
+              {"high", number(c.high)}};
     }
     Pairs operator()(const TubeShape& t) const {
-      return {{"type", quoted("tube")}, {"axis", quoted(axis_name(t.axis))}, {"center", writer.vector(t.center)},
-              {"inner_radius", number(t.inner)}, {"outer_radius", number(t.outer)}, {"low", number(t.low)},
+      return {{"type", quoted("tube")},          {"axis", quoted(axis_name(t.axis))}, {"center", writer.vector(t.center)},
+              {"inner_radius", number(t.inner)}, {"outer_radius", number(t.outer)},   {"low", number(t.low)},
               {"high", number(t.high)}};
     }
   };
@@ -166,9 +172,8 @@ void put_body(Writer& writer, const sph::Body& body) {
   writer.table("[[bodies]]", "bodies");
   writer.put("name", body.name);
   if (!body.shape.removed.empty())
-    writer.line("subtract", array(body.shape.removed, [&](const Primitive& shape) {
-                  return inline_table(shape_pairs(shape, writer));
-                }));
+    writer.line("subtract",
+                array(body.shape.removed, [&](const Primitive& shape) { return inline_table(shape_pairs(shape, writer)); }));
   writer.put("spacing", body.spacing);
   writer.put("velocity", body.velocity);
   writer.put("radial_velocity", body.radial_velocity);
@@ -283,9 +288,8 @@ void put_solid(Writer& writer, const sph::SolidBody& solid) {
   writer.table("[[solids]]", "solids");
   writer.put("name", solid.name);
   if (!solid.shape.removed.empty())
-    writer.line("subtract", array(solid.shape.removed, [&](const Primitive& shape) {
-                  return inline_table(shape_pairs(shape, writer));
-                }));
+    writer.line("subtract",
+                array(solid.shape.removed, [&](const Primitive& shape) { return inline_table(shape_pairs(shape, writer)); }));
   writer.put("description", solid.description == sph::Description::total_lagrangian ? "total_lagrangian" : "updated_lagrangian");
   writer.put("spacing", solid.spacing);
   writer.put("lattice", solid.lattice == sph::LatticeType::rings ? "rings" : "cartesian");

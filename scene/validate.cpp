@@ -28,7 +28,10 @@ const Node& value_or_self(const Node& node, const char* key) {
 class Validator {
  public:
   explicit Validator(Draft& draft)
-      : draft_(draft), scene_(draft.scene), fluid_(draft.scene.fluid), dimension_(draft.scene.fluid.dimension),
+      : draft_(draft),
+        scene_(draft.scene),
+        fluid_(draft.scene.fluid),
+        dimension_(draft.scene.fluid.dimension),
         kept_(kept_part(draft.scene.fluid.symmetry.axis)) {
     if (scene_.structure && draft.structure_shape_good) solid_ = structure_shape(scene_.structure->mesh);
   }
@@ -106,15 +109,19 @@ class Validator {
   void parts() {
     const bool solids = !draft_.solid_nodes.empty();
     if (draft_.body_nodes.empty() && !draft_.structure_node && !solids)
-      draft_.report.add(draft_.root, "the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one");
+      draft_.report.add(
+          draft_.root, "the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one");
     if (solids && draft_.structure_node)
-      draft_.report.add(*draft_.structure_node, "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
-                                                "either finite elements or particles; remove one of the two");
+      draft_.report.add(*draft_.structure_node,
+                        "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
+                        "either finite elements or particles; remove one of the two");
     if (solids && draft_.dimension_good && dimension_ == 1)
-      draft_.report.add(*draft_.solid_nodes[0], "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
+      draft_.report.add(*draft_.solid_nodes[0],
+                        "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
     if (!solids && !draft_.structure_node && !draft_.plane_nodes.empty())
-      draft_.report.add(*draft_.plane_nodes[0], "[[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid "
-                                                "take [[walls]]");
+      draft_.report.add(*draft_.plane_nodes[0],
+                        "[[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid "
+                        "take [[walls]]");
     if (draft_.body_nodes.empty() && !draft_.wall_nodes.empty())
       draft_.report.add(*draft_.wall_nodes[0], "walls without [[bodies]]: add the fluid that they hold, or remove them");
   }
@@ -130,10 +137,12 @@ class Validator {
     };
     for (int a = 0; a < 3; ++a)
       if (fluid_.symmetry.axis[a] && fluid_.gravity[a] != 0 && cut(a))
-        complain(draft_.root, "gravity", std::string("gravity is not its own mirror image across the symmetry plane ") + "xyz"[a] +
-                                             " = 0, which cuts a body; leave that plane out, or that component of gravity");
+        complain(draft_.root, "gravity",
+                 std::string("gravity is not its own mirror image across the symmetry plane ") + "xyz"[a] +
+                     " = 0, which cuts a body; leave that plane out, or that component of gravity");
     if (scene_.start.kind != Start::Kind::plain)
-      complain(draft_.root, "gravity", "gravity needs start.kind = \"plain\": the flow of the other starts is computed without it");
+      complain(draft_.root, "gravity",
+               "gravity needs start.kind = \"plain\": the flow of the other starts is computed without it");
   }
 
   void lattice() {
@@ -147,12 +156,17 @@ class Validator {
     if (!node) return;
     const bool rings = lattice.type == sph::LatticeType::rings;
     if (!lattice.rotation.isZero() && (rings || !lattice.fit.empty() || dimension_ == 1) && draft_.dimension_good)
-      complain(*node, "rotation", std::string("resolution.rotation turns a Cartesian lattice that is not fitted, in 2D and 3D; leave out ") +
-                                      (dimension_ == 1 ? "rotation" : rings ? "lattice = \"rings\"" : "fit") + " or rotation");
+      complain(*node, "rotation",
+               std::string("resolution.rotation turns a Cartesian lattice that is not fitted, in 2D and 3D; leave out ") +
+                   (dimension_ == 1 ? "rotation"
+                    : rings         ? "lattice = \"rings\""
+                                    : "fit") +
+                   " or rotation");
     if (rings && dimension_ == 1 && draft_.dimension_good)
       complain(*node, "lattice", "resolution.lattice = \"rings\" needs dimension = 2 or 3; take \"cartesian\"");
     if (lattice.fit.empty()) {
-      if (rings) complain(*node, "lattice", "resolution.lattice = \"rings\" needs a round body or wall to fit; add fit = \"its name\"");
+      if (rings)
+        complain(*node, "lattice", "resolution.lattice = \"rings\" needs a round body or wall to fit; add fit = \"its name\"");
       return;
     }
     std::vector<std::string> known;
@@ -169,8 +183,9 @@ class Validator {
       complain(*node, "fit", "resolution.fit: no body or wall '" + lattice.fit + "'" + suggestion(lattice.fit, known));
     } else if (rings && !std::holds_alternative<Cylinder>(*fitted) && !std::holds_alternative<TubeShape>(*fitted) &&
                !std::holds_alternative<Sphere>(*fitted)) {
-      complain(*node, "fit", "resolution.fit: rings need something round, and '" + lattice.fit +
-                                 "' is not a cylinder, tube or sphere; take lattice = \"cartesian\"");
+      complain(*node, "fit",
+               "resolution.fit: rings need something round, and '" + lattice.fit +
+                   "' is not a cylinder, tube or sphere; take lattice = \"cartesian\"");
     }
   }
 
@@ -187,8 +202,10 @@ class Validator {
         return false;
       }
       if (fluid_.symmetry.axis[a] && extent.high[a] <= 0) {
-        complain(node, "shape", path + " lies wholly at " + "xyz"[a] + " <= 0, in the part that the symmetry plane leaves out; "
-                                "move it to the other side");
+        complain(node, "shape",
+                 path + " lies wholly at " + "xyz"[a] +
+                     " <= 0, in the part that the symmetry plane leaves out; "
+                     "move it to the other side");
         return false;
       }
     }
@@ -205,8 +222,9 @@ class Validator {
     for (std::size_t k = 0; k < shape.removed.size(); ++k) {
       const Shape removed{shape.removed[k], {}};
       if (!find_in_both(inside(base, dimension_), inside(removed, dimension_), window, 0, dimension_))
-        complain(node, "subtract", path + ".subtract: the shape number " + std::to_string(k) +
-                                       " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
+        complain(node, "subtract",
+                 path + ".subtract: the shape number " + std::to_string(k) +
+                     " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
     }
     const Depth within = inside(shape, dimension_);
     if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
@@ -225,17 +243,18 @@ class Validator {
         if (!usable_[i]) continue;
         const Part& first = parts_[i];
         const Bounds window = common(extent, bounds(*first.shape, dimension_));
-        if (const auto at = find_in_both(inside(*first.shape, dimension_), inside(*later.shape, dimension_), window, tolerance(),
-                                         dimension_))
-          complain(*later.node, "shape", later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
-                                             " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
+        if (const auto at =
+                find_in_both(inside(*first.shape, dimension_), inside(*later.shape, dimension_), window, tolerance(), dimension_))
+          complain(*later.node, "shape",
+                   later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
+                       " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
       }
       if (!solid_ || dimension_ != 3) continue;
       const Shape solid{*solid_, {}};
       const Bounds window = common(extent, bounds(solid, 3));
       if (const auto at = find_in_both(inside(solid, 3), inside(*later.shape, 3), window, tolerance(), 3))
-        complain(*later.node, "shape", later.path() + " overlaps the structure, e.g. at " + text(*at, 3) +
-                                           " m; make it end at the structure's face");
+        complain(*later.node, "shape",
+                 later.path() + " overlaps the structure, e.g. at " + text(*at, 3) + " m; make it end at the structure's face");
     }
   }
 
@@ -273,15 +292,17 @@ class Validator {
       bool contained = false;
       for (const sph::Wall& wall : fluid_.walls) {
         const Shape container{opened(wall), {}};
-        const auto at = find_in_both(inside(body.shape, dimension_), outside(container, dimension_), window, tolerance(), dimension_);
+        const auto at =
+            find_in_both(inside(body.shape, dimension_), outside(container, dimension_), window, tolerance(), dimension_);
         if (!at) contained = true;
         else if (!out) out = at;
       }
       if (contained) continue;
       std::vector<std::string> containers;
       for (const sph::Wall& wall : fluid_.walls) containers.push_back("'" + wall.name + "'");
-      complain(*draft_.body_nodes[i], "shape", "bodies." + body.name + " reaches outside the wall " + listed(containers) + ", e.g. at " +
-                                                   text(*out, dimension_) + " m; make it smaller or the wall larger");
+      complain(*draft_.body_nodes[i], "shape",
+               "bodies." + body.name + " reaches outside the wall " + listed(containers) + ", e.g. at " + text(*out, dimension_) +
+                   " m; make it smaller or the wall larger");
     }
   }
 
@@ -292,8 +313,9 @@ class Validator {
     if (solid_) halved("structure", node, *solid_);
     const bool fluid = !fluid_.bodies.empty();
     if (fluid && structure.wet_faces.empty())
-      complain(node, "wet", "structure.wet is empty, so the water does not see the structure; name the faces that it touches, "
-                            "e.g. wet = [\"inner\"]");
+      complain(node, "wet",
+               "structure.wet is empty, so the water does not see the structure; name the faces that it touches, "
+               "e.g. wet = [\"inner\"]");
     if (draft_.body_nodes.empty() && !structure.wet_faces.empty())
       complain(node, "wet", "structure.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
     if (fluid && solid_ && draft_.spacing_good && all_usable())
@@ -303,14 +325,15 @@ class Validator {
   void wet_face(const std::string& path, const Node& node, const Primitive& shape, const std::string& face) {
     const std::vector<Vec3> points = face_points(shape, face);
     const bool touched = points.empty() || std::any_of(points.begin(), points.end(), [&](const Vec3& x) {
-      for (int a = 0; a < dimension_; ++a)
-        if (fluid_.symmetry.axis[a] && x[a] < -tolerance()) return false;
-      return touches_water(x);
-    });
+                           for (int a = 0; a < dimension_; ++a)
+                             if (fluid_.symmetry.axis[a] && x[a] < -tolerance()) return false;
+                           return touches_water(x);
+                         });
     if (!touched)
-      complain(node, "wet", path + ".wet: the face '" + face + "' touches no water: no body comes within two spacings (" +
-                                rounded(near()) + " m) of it; move the water or the " + (path == "structure" ? "structure" : "solid") +
-                                ", or leave the face out");
+      complain(node, "wet",
+               path + ".wet: the face '" + face + "' touches no water: no body comes within two spacings (" + rounded(near()) +
+                   " m) of it; move the water or the " + (path == "structure" ? "structure" : "solid") +
+                   ", or leave the face out");
   }
 
   void solids() {
@@ -335,9 +358,12 @@ class Validator {
       if (!solid.wet.empty() && !fluid)
         complain(node, "wet", path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
       if (solid.wet.empty() && fluid && scene_.coupling.solids == coupling::SolidContact::surface)
-        complain(node, "wet", path + ".wet is empty, but coupling.solids = \"surface\" couples by wet faces; name those that the "
-                                  "water touches");
-      const bool drawn = dimension_ == 3 || is_round(solid.shape.base, dimension_) || std::holds_alternative<Box>(solid.shape.base);
+        complain(node, "wet",
+                 path +
+                     ".wet is empty, but coupling.solids = \"surface\" couples by wet faces; name those that the "
+                     "water touches");
+      const bool drawn =
+          dimension_ == 3 || is_round(solid.shape.base, dimension_) || std::holds_alternative<Box>(solid.shape.base);
       if (fluid && drawn && draft_.spacing_good && all_usable())
         for (const std::string& face : solid.wet) wet_face(path, node, solid.shape.base, face);
     }
@@ -351,7 +377,8 @@ class Validator {
       for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
         if (!usable_[fluid_.bodies.size() + i]) continue;
         const Bounds extent = common(kept_, bounds(fluid_.solids[i].shape, dimension_));
-        const double beyond = plane.body_above ? plane.position - extent.low[plane.axis] : extent.high[plane.axis] - plane.position;
+        const double beyond =
+            plane.body_above ? plane.position - extent.low[plane.axis] : extent.high[plane.axis] - plane.position;
         if (beyond > tolerance())
           complain(*draft_.plane_nodes[k], "position",
                    "planes." + std::to_string(k) + ": solids." + fluid_.solids[i].name + " starts " + rounded(beyond) +
@@ -367,9 +394,9 @@ class Validator {
     for (int axis = 0; axis < dimension_; ++axis) {
       const double low = extent.low[axis], high = extent.high[axis];
       if (!fluid_.symmetry.axis[axis] || low >= 0 || std::abs(low + high) <= 1e-9 * (high - low)) continue;
-      complain(node, "shape", path + ": the symmetry plane " + "xyz"[axis] + " = 0 does not halve it (it runs from " + rounded(low) +
-                                  " to " + rounded(high) + " m); centre the whole " +
-                                  (path == "structure" ? "structure" : "solid") + " on the plane");
+      complain(node, "shape",
+               path + ": the symmetry plane " + "xyz"[axis] + " = 0 does not halve it (it runs from " + rounded(low) + " to " +
+                   rounded(high) + " m); centre the whole " + (path == "structure" ? "structure" : "solid") + " on the plane");
     }
   }
 
@@ -383,12 +410,14 @@ class Validator {
     const std::string path = "probes." + probe.name;
     for (int a = 0; a < dimension_; ++a)
       if (fluid_.symmetry.axis[a] && probe.point[a] < -1e-9) {
-        complain(node, "point", path + ".point lies at " + "xyz"[a] + " < 0, in the part that the symmetry plane leaves out; mirror it");
+        complain(node, "point",
+                 path + ".point lies at " + "xyz"[a] + " < 0, in the part that the symmetry plane leaves out; mirror it");
         return;
       }
     if (probe.kind == Probe::Kind::structure) {
       if (!draft_.structure_node && draft_.solid_nodes.empty()) {
-        complain(node, "kind", path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
+        complain(node, "kind",
+                 path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
       } else if (!draft_.solid_nodes.empty() && all_usable()) {
         double thinnest = 1e300;
         for (const sph::SolidBody& solid : fluid_.solids) thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
@@ -412,7 +441,9 @@ class Validator {
     if (probe.kind == Probe::Kind::wall) {
       const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
       if (fluid_.walls.empty() && !wet && !gmsh && fluid_.solids.empty()) {
-        complain(node, "kind", path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");
+        complain(
+            node, "kind",
+            path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");
         return;
       }
       double away = 1e300;
@@ -421,15 +452,16 @@ class Validator {
       if (solid_ && dimension_ == 3) away = std::min(away, std::abs(signed_distance(*solid_, probe.point, 3)));
       away = std::min(away, std::abs(distance_to_solids(probe.point)));
       if (away > near() && !gmsh)
-        complain(node, "point", path + ".point is " + rounded(away) + " m away from every wall, more than two spacings; move it to the wall");
+        complain(node, "point",
+                 path + ".point is " + rounded(away) + " m away from every wall, more than two spacings; move it to the wall");
       return;
     }
     double away = 1e300;
     for (const sph::Body& body : fluid_.bodies) away = std::min(away, signed_distance(body.shape, probe.point, dimension_));
-    for (const sph::Wall& wall : fluid_.walls)
-      away = std::min(away, signed_distance(wall.container, probe.point, dimension_));
+    for (const sph::Wall& wall : fluid_.walls) away = std::min(away, signed_distance(wall.container, probe.point, dimension_));
     if (away > near())
-      complain(node, "point", path + ".point lies outside everything: " + rounded(away) + " m from the nearest fluid or wall; move it");
+      complain(node, "point",
+               path + ".point lies outside everything: " + rounded(away) + " m from the nearest fluid or wall; move it");
   }
 
   Draft& draft_;
@@ -439,7 +471,7 @@ class Validator {
   Bounds kept_;
   std::optional<Primitive> solid_;  // of the [structure]
   std::vector<Part> parts_;
-  std::vector<bool> usable_;        // beside parts_: can it be compared with others?
+  std::vector<bool> usable_;  // beside parts_: can it be compared with others?
 };
 
 }  // namespace

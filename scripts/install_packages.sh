@@ -18,6 +18,7 @@ packages=(
   libgtest-dev           # tests
   libnanoflann-dev       # tests: an independent neighbour search to check ours against
   libbenchmark-dev       # bench/: Google Benchmark
+  clang-format           # tests: the tree is laid out as .clang-format says
   valgrind               # tests: counts the instructions of a step
   python3                # scripts/plot.py
   python3-numpy          # scripts/plot.py

@@ -32,8 +32,7 @@ Columns columns_over(const std::vector<GroupView>& groups, double reach) {
     }
   }
   columns.width = (reach + 0.5 * row) * (1.0 + 1e-9);
-  for (int a = 0; a < 2; ++a)
-    columns.count[a] = std::max(1, int(std::min((high[a] - columns.low[a]) / columns.width, 1e6)) + 1);
+  for (int a = 0; a < 2; ++a) columns.count[a] = std::max(1, int(std::min((high[a] - columns.low[a]) / columns.width, 1e6)) + 1);
   return columns;
 }
 
@@ -46,8 +45,7 @@ void for_each_row(const std::vector<GroupView>& groups, const Columns& columns, 
     for (int iz = 0; iz < grid.count[2]; ++iz)
       for (int iy = 0; iy < grid.count[1]; ++iy) {
         const std::uint32_t* row = grid.start + (std::size_t(iz) * grid.count[1] + iy) * grid.count[0];
-        if (row[0] < row[grid.count[0]])
-          visit(columns.of_row(grid, iy, iz), row[0], row[grid.count[0]], std::uint16_t(g));
+        if (row[0] < row[grid.count[0]]) visit(columns.of_row(grid, iy, iz), row[0], row[grid.count[0]], std::uint16_t(g));
       }
   }
 }
@@ -98,8 +96,8 @@ void BlockOrder::describe(PairInput& in) {
 }
 
 std::size_t BlockOrder::memory_bytes() const {
-  return clusters_.capacity() * sizeof(Cluster) + blocks_.capacity() * sizeof(Block) +
-         4 * (rank_.capacity() + next_.capacity()) + finished_.capacity();
+  return clusters_.capacity() * sizeof(Cluster) + blocks_.capacity() * sizeof(Block) + 4 * (rank_.capacity() + next_.capacity()) +
+         finished_.capacity();
 }
 
 }  // namespace undex::sph

@@ -224,8 +224,7 @@ class CandidateList {
       for (int first = 0; first < length; first += D) {
         Vec<double> tile[D];
 #pragma GCC unroll 8
-        for (int k = 0; k < D; ++k)
-          tile[k] = first + k < length ? load_double(from + (first + k) * W) : Vec<double>{};
+        for (int k = 0; k < D; ++k) tile[k] = first + k < length ? load_double(from + (first + k) * W) : Vec<double>{};
         transpose(tile);
 #pragma GCC unroll 8
         for (int l = 0; l < D; ++l) store_converted(part[l] + first, tile[l]);

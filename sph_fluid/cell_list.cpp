@@ -28,8 +28,7 @@ Range range_of(const double* a, std::uint32_t first, std::uint32_t last) {
 
 }  // namespace
 
-void CellList::build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last,
-                     double width) {
+void CellList::build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width) {
   first_ = first;
   const std::uint32_t n = last - first;
   const double* axes[3] = {x, y, z};

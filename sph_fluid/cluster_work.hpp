@@ -25,10 +25,8 @@ struct AnyKernel {
   UNDEX_INLINE V gradient_of_root(V q) const {
     const V inside = minimum(q, broadcast(T(support)));
     return with_kernel(which, [&](auto kernel) UNDEX_LAMBDA_INLINE {
-      if constexpr (decltype(kernel)::needs_root)
-        return kernel.template gradient_of_root<T>(inside);
-      else
-        return kernel.template gradient<T>(inside * inside);
+      if constexpr (decltype(kernel)::needs_root) return kernel.template gradient_of_root<T>(inside);
+      else return kernel.template gradient<T>(inside * inside);
     });
   }
 };
@@ -93,11 +91,13 @@ struct PairH {
     if (dimension > 2) scale *= inverse_h;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(minimum(
-                                           s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
+      pair.F =
+          keep(pair.near,
+               scale * kernel.template gradient_of_root<T>(minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
     } else {
-      pair.F = keep(pair.near, scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h),
-                                                                            broadcast(support * support))));
+      pair.F =
+          keep(pair.near,
+               scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support))));
     }
   }
 };
@@ -134,7 +134,8 @@ class ClusterWork {
 
   /// Returns the number of true neighbours met, directed.
   long long run() {
-    if (out_of_reach() || (own_.fast ? in_.choice == PairChoice::slow : !Pass::symmetric && in_.choice == PairChoice::fast)) return 0;
+    if (out_of_reach() || (own_.fast ? in_.choice == PairChoice::slow : !Pass::symmetric && in_.choice == PairChoice::fast))
+      return 0;
     for (int g = 0; g < in_.group_count; ++g) with_group(g);
     const bool with_own = takes(own_, own_);
     if (in_.wall_count > 0 && with_own) with_walls();
@@ -148,8 +149,8 @@ class ClusterWork {
   bool out_of_reach() const {
     bool out = false;
     for (int a = 0; a < 3; ++a)
-      out = out || (in_.partly && (box_.low[a] - in_.disturbed_high[a] > in_.margin ||
-                                   in_.disturbed_low[a] - box_.high[a] > in_.margin));
+      out = out || (in_.partly &&
+                    (box_.low[a] - in_.disturbed_high[a] > in_.margin || in_.disturbed_low[a] - box_.high[a] > in_.margin));
     return out;
   }
 
@@ -243,10 +244,8 @@ class ClusterWork {
         for (int k = 0; k < OtherSums::count; ++k) store(list_.block(b) + List::sum + k * W, V{});
     if (list_.size == 0) return;
     for (int l = 0; l < cluster_.count; ++l) {
-      if (kind.constant_h)
-        pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
-      else
-        pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
+      if (kind.constant_h) pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
+      else pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
     }
   }
 
@@ -256,8 +255,7 @@ class ClusterWork {
     const std::uint32_t me = cluster_.begin + l;
     State i;
     i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
-    if constexpr (with_second)
-      i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
+    if constexpr (with_second) i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
     const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
             z = broadcast(T(in_.z[me] - origin_[2]));
     constexpr bool wall = same_type<Other, Wall>;
@@ -288,16 +286,13 @@ class ClusterWork {
       }
       OtherSums sj;
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sum = load(block + List::sum + k * W); });
-      if constexpr (wall)
-        pass_.wall(i, j, pair, si, sj);
-      else
-        pass_.pair(i, j, pair, si, sj);
+      if constexpr (wall) pass_.wall(i, j, pair, si, sj);
+      else pass_.pair(i, j, pair, si, sj);
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
     }
     met_ += met;
-    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE {
-      sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum;
-    });
+    si.each([&](V& sum, int k)
+                UNDEX_LAMBDA_INLINE { sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
   }
 
   /// The particles' sums over lanes and candidates, D particles at a time.

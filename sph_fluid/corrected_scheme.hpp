@@ -6,15 +6,14 @@
 //   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i - v*) . g_ij
 // but where two particles of one material approach each other their part of the density rate is that of riemann_scheme.hpp,
 //   2 m_j (v_i . e - u*)(-F r)
-// the time derivative of sum_j m_j W_ij, with the kernel's own gradient: B, made of the volumes that are carried, would divide out
-// by how much these differ from the space there is, and an error of density within a shock's front would stay.
-// g_ij = -g_ji, and force and work have one p* and one v*: mass, momentum and total energy are conserved to round-off. g_ij does
-// not lie along the pair, so angular momentum is not. Sums over the space that neighbours fill come out right whatever the
-// lattice factor, near walls, and where the volumes claim more or less than the space there is: B is then 1/f times what it
-// was, which is why there is no filling factor here.
-// B fades into 1 where det M falls from 0.6 to 0.3: few neighbours have no inverse, and a free surface (the outer layer of a
-// lattice has 0.28, the next 0.83) would become as much stiffer as B is larger. Against a wall, whose mirrored state has no
-// moments of its own, g = B_i grad W.
+// the time derivative of sum_j m_j W_ij, with the kernel's own gradient: B, made of the volumes that are carried, would divide
+// out by how much these differ from the space there is, and an error of density within a shock's front would stay. g_ij = -g_ji,
+// and force and work have one p* and one v*: mass, momentum and total energy are conserved to round-off. g_ij does not lie along
+// the pair, so angular momentum is not. Sums over the space that neighbours fill come out right whatever the lattice factor, near
+// walls, and where the volumes claim more or less than the space there is: B is then 1/f times what it was, which is why there is
+// no filling factor here. B fades into 1 where det M falls from 0.6 to 0.3: few neighbours have no inverse, and a free surface
+// (the outer layer of a lattice has 0.28, the next 0.83) would become as much stiffer as B is larger. Against a wall, whose
+// mirrored state has no moments of its own, g = B_i grad W.
 #pragma once
 
 #include "sph_fluid/riemann_scheme.hpp"

@@ -24,10 +24,10 @@ std::vector<std::size_t> Fluid::particles_by_body() const {
 }
 std::size_t Fluid::memory_bytes() const {
   const Implementation& s = *self_;
-  std::size_t bytes = s.particles.memory_bytes() + s.blocks.memory_bytes() +
-                      s.interactions.capacity() * sizeof(long long) +
+  std::size_t bytes = s.particles.memory_bytes() + s.blocks.memory_bytes() + s.interactions.capacity() * sizeof(long long) +
                       s.wall_origin.capacity() * (sizeof(Implementation::WallOrigin) + 3 * sizeof(double)) +
-                      s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow) + s.images.memory_bytes() + s.near.images.memory_bytes();
+                      s.wall_rows.capacity() * sizeof(WallRow) + s.wall_force.capacity() * sizeof(ForceRow) +
+                      s.images.memory_bytes() + s.near.images.memory_bytes();
   for (const Group& group : s.groups) bytes += group.cells.memory_bytes();
   for (const Group& group : s.near.groups) bytes += group.cells.memory_bytes();
   bytes += s.near.particles.memory_bytes() + s.near.blocks.memory_bytes();
@@ -66,8 +66,7 @@ double Fluid::maximum_pressure() const {
 }
 double Fluid::maximum_speed() const {
   const Particles& p = self_->particles;
-  return std::sqrt(
-      self_->largest([&](std::size_t i) { return p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]; }));
+  return std::sqrt(self_->largest([&](std::size_t i) { return p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]; }));
 }
 Clamps Fluid::clamps() const { return self_->clamps; }
 long long Fluid::neighbour_interactions() const { return self_->interaction_sum; }

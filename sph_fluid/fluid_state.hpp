@@ -9,7 +9,9 @@ namespace undex::sph::UNDEX_LEVEL {
 /// How the entries of a row change from a particle to its mirror image: bit a is set where the sign changes with axis a.
 inline constexpr int parity_of(const FluidRow*, int k) { return k < 3 ? 1 << k : 0; }
 inline constexpr int parity_of(const WallRow*, int k) { return k < 3 ? 1 << k : k < 6 ? 1 << (k - 3) : 0; }
-inline constexpr int parity_of(const GradientRow*, int k) { return k < 3 ? 0 : k < 6 ? (k == 5 ? 5 : 3 << (k - 3)) : 1 << (k - 6); }
+inline constexpr int parity_of(const GradientRow*, int k) {
+  return k < 3 ? 0 : k < 6 ? (k == 5 ? 5 : 3 << (k - 3)) : 1 << (k - 6);
+}
 inline constexpr int parity_of(const ViscosityRow*, int) { return 0; }
 inline constexpr int parity_of(const CorrectedRow*, int k) {
   return k < 10 ? parity_of((const GradientRow*)nullptr, k < 9 ? k : 0) : parity_of((const GradientRow*)nullptr, k - 10);
@@ -77,8 +79,7 @@ struct WallState {
 
   template <class Read>
   UNDEX_INLINE void read(Read entry) {
-    vx = entry(0), vy = entry(1), vz = entry(2), nx = entry(3), ny = entry(4), nz = entry(5), volume = entry(6),
-    slip = entry(7);
+    vx = entry(0), vy = entry(1), vz = entry(2), nx = entry(3), ny = entry(4), nz = entry(5), volume = entry(6), slip = entry(7);
   }
 };
 

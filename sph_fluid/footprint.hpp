@@ -1,9 +1,9 @@
-// A particle presses on an area as wide as its kernel, not on a point: where a wall's mesh is finer than that, loads that went to the
-// foot's face alone would crush single cells and leave others without any. Nodes therefore share what they receive with those within
-// a smoothing length H, by a hat,
+// A particle presses on an area as wide as its kernel, not on a point: where a wall's mesh is finer than that, loads that went to
+// the foot's face alone would crush single cells and leave others without any. Nodes therefore share what they receive with those
+// within a smoothing length H, by a hat,
 //   S_nm = A_m max(1 - |X_n - X_m|/H, 0) / sum over k,   force_m = sum_n S_nm force_n,   velocity shown at n = sum_m S_nm v_m,
-// A being the nodes' areas: total force and power are kept, and a mesh wider than the particles is left as it is. Across a symmetry
-// plane the mirrored nodes have their share.
+// A being the nodes' areas: total force and power are kept, and a mesh wider than the particles is left as it is. Across a
+// symmetry plane the mirrored nodes have their share.
 #pragma once
 
 #include <array>

@@ -22,8 +22,7 @@ struct Gaussian {
     switch (dimension) {
       case 1: return 1.0 / (std::sqrt(pi) * std::erf(3.0) - 6.0 * cut);
       case 2: return 1.0 / (pi * (1.0 - cut) - pi * 9.0 * cut);
-      default:
-        return 1.0 / (std::pow(pi, 1.5) * std::erf(3.0) - 2.0 * pi * 3.0 * cut - 4.0 / 3.0 * pi * 27.0 * cut);
+      default: return 1.0 / (std::pow(pi, 1.5) * std::erf(3.0) - 2.0 * pi * 3.0 * cut - 4.0 / 3.0 * pi * 27.0 * cut);
     }
   }
   static double shape(double q) { return q < support ? std::exp(-q * q) - std::exp(-9.0) : 0.0; }
@@ -193,10 +192,8 @@ double gradient_factor(double r, double h, int dimension) {
   const double q = r / h;
   if (q >= Kernel::support) return 0.0;
   const double scale = Kernel::norm(dimension) / std::pow(h, dimension + 2);
-  if constexpr (Kernel::needs_root)
-    return scale * Kernel::template gradient_of_root<double>(q);
-  else
-    return scale * Kernel::template gradient<double>(q * q);
+  if constexpr (Kernel::needs_root) return scale * Kernel::template gradient_of_root<double>(q);
+  else return scale * Kernel::template gradient<double>(q * q);
 }
 
 /// What the discrete gradient makes of a linear field of slope 1 on a Cartesian lattice with h = eta spacings:

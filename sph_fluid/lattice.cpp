@@ -17,13 +17,13 @@ namespace {
 /// A lattice ready to be walked: Cartesian cells, or rings about an axis.
 struct Grid {
   int dimension = 3;
-  Vec3 origin = Vec3::Zero();   // a cell's corner
-  Vec3 step = Vec3::Ones();     // cell edges; along the axis only, for rings
-  Mat3 turn = Mat3::Identity(); // of Cartesian cells, about the origin
+  Vec3 origin = Vec3::Zero();    // a cell's corner
+  Vec3 step = Vec3::Ones();      // cell edges; along the axis only, for rings
+  Mat3 turn = Mat3::Identity();  // of Cartesian cells, about the origin
   bool rings = false;
   int axis = 2;
   double ring_start = 0, ring_width = 0;
-  long around = 0;              // particles of every ring; 0: as many as its own length asks for
+  long around = 0;  // particles of every ring; 0: as many as its own length asks for
 };
 
 using Visit = std::function<void(const Vec3& x, double volume)>;
@@ -36,7 +36,8 @@ double noise(std::uint64_t seed, std::uint64_t stream) {
   return double((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
 }
 
-/// Cuts low..high into whole steps of about dx. Symmetric bounds get a cell face at zero, and so does a symmetry plane that cuts them.
+/// Cuts low..high into whole steps of about dx. Symmetric bounds get a cell face at zero, and so does a symmetry plane that cuts
+/// them.
 void fit_axis(double low, double high, double dx, bool mirrored, double& origin, double& step) {
   if (std::abs(low + high) <= 1e-12 * (high - low) || (mirrored && low < 0.0 && high > 0.0)) {
     origin = 0.0;
@@ -48,9 +49,7 @@ void fit_axis(double low, double high, double dx, bool mirrored, double& origin,
 }
 
 /// Particles on a ring, symmetric in quadrants.
-long ring_count(double radius, double width) {
-  return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width));
-}
+long ring_count(double radius, double width) { return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width)); }
 
 const Primitive& shape_to_fit(const Settings& settings) {
   for (const Body& body : settings.bodies)
@@ -133,8 +132,7 @@ Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
   };
   if (const auto* cylinder = std::get_if<Cylinder>(&body.shape.base))
     about(cylinder->axis, cylinder->center, 0.0, cylinder->radius);
-  else if (const auto* tube = std::get_if<TubeShape>(&body.shape.base))
-    about(tube->axis, tube->center, tube->inner, tube->outer);
+  else if (const auto* tube = std::get_if<TubeShape>(&body.shape.base)) about(tube->axis, tube->center, tube->inner, tube->outer);
   else
     throw std::invalid_argument("solid '" + body.name + "': lattice = \"rings\" needs a cylinder or a tube; use \"cartesian\"");
   return grid;
@@ -225,7 +223,7 @@ Bounds kept_window(const Settings& settings, Bounds box) {
 /// Which faces of the container the point lies beyond, and the outward normal there.
 struct Beyond {
   std::vector<std::string> faces;
-  Vec3 normal = Vec3::Zero();   // behind an edge, the edge's direction
+  Vec3 normal = Vec3::Zero();  // behind an edge, the edge's direction
   double distance = 0;
 };
 
@@ -341,10 +339,11 @@ std::vector<std::string> lattice_warnings(const Settings& settings) {
       if (off < 1e-6 && !turned) continue;
       char how[100] = "is turned against";
       if (!turned) std::snprintf(how, sizeof how, "has no cell face on (the nearest is %.2g spacings off)", off);
-      warnings.push_back("the lattice of body '" + body.name + "' " + how + " the symmetry plane " + "xyz"[a] +
-                         " = 0: particles there are not half a spacing from it, and their pressure is off; " +
-                         (turned ? "leave out resolution.rotation or the plane"
-                                 : "choose resolution.origin a multiple of the spacing, or resolution.fit something that the plane halves"));
+      warnings.push_back(
+          "the lattice of body '" + body.name + "' " + how + " the symmetry plane " + "xyz"[a] +
+          " = 0: particles there are not half a spacing from it, and their pressure is off; " +
+          (turned ? "leave out resolution.rotation or the plane"
+                  : "choose resolution.origin a multiple of the spacing, or resolution.fit something that the plane halves"));
     }
   }
   const SlipFaces faces = slip_faces(settings);
@@ -358,11 +357,12 @@ std::vector<std::string> lattice_warnings(const Settings& settings) {
     for (const double face : {pair.symmetric ? -1e300 : pair.low, pair.high}) {
       const double miss = across ? 0.5 : off(face - grid.origin[a], grid.step[a]);
       if (std::abs(face) > 1e299 || miss < 1e-6) continue;
-      std::snprintf(text, sizeof text,
-                    "the lattice has no cell face on the slip wall %c = %g m (the nearest is %.2g spacings off): particles and their "
-                    "images leave a gap there or overlap, and pressure is off; name the wall, or a body that it encloses, in "
-                    "resolution.fit",
-                    "xyz"[a], face, miss);
+      std::snprintf(
+          text, sizeof text,
+          "the lattice has no cell face on the slip wall %c = %g m (the nearest is %.2g spacings off): particles and their "
+          "images leave a gap there or overlap, and pressure is off; name the wall, or a body that it encloses, in "
+          "resolution.fit",
+          "xyz"[a], face, miss);
       warnings.push_back(text);
     }
   }

@@ -10,8 +10,8 @@
 namespace undex::sph {
 
 struct BodyParticles {
-  std::vector<Vec3> position;   ///< [m]
-  std::vector<double> volume;   ///< [m^d]; their sum is the exact volume of the kept part of the body
+  std::vector<Vec3> position;  ///< [m]
+  std::vector<double> volume;  ///< [m^d]; their sum is the exact volume of the kept part of the body
 };
 
 /// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.

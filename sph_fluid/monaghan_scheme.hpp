@@ -37,7 +37,8 @@ struct Monaghan {
   }
 
   /// A pair with its viscosity multiplied by `share`: the force, and what each side takes up of its work.
-  UNDEX_INLINE void exchange(const FluidState<V>& i, const FluidState<V>& j, const Pair<V>& pair, V share, Sums& si, Sums& sj) const {
+  UNDEX_INLINE void exchange(const FluidState<V>& i, const FluidState<V>& j, const Pair<V>& pair, V share, Sums& si,
+                             Sums& sj) const {
     const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
     V closing;
     const V viscous = share * viscosity(vr, pair, i.c + j.c, i.rho + j.rho, i.rho * j.rho, closing);

@@ -80,17 +80,17 @@ struct SumRow {
 
 /// What they add up for a wall's particle.
 struct ForceRow {
-  double fx, fy, fz;   ///< [N]
+  double fx, fy, fz;  ///< [N]
 };
 
 /// Cells over one range of particles. Rows run along x; a row's cells are a quarter as long as wide, so that the run of
 /// candidates within reach is found from `start` alone.
 struct CellGrid {
-  double low[3];            ///< lower corner [m]
-  double size[3];           ///< cell edge along x, y, z [m]
+  double low[3];                       ///< lower corner [m]
+  double size[3];                      ///< cell edge along x, y, z [m]
   double bound_low[3], bound_high[3];  ///< box of the particles themselves
-  int count[3];             ///< cells along x, y, z
-  const std::uint32_t* start;  ///< count[0]*count[1]*count[2] + 1 entries; first particle of each cell, x fastest
+  int count[3];                        ///< cells along x, y, z
+  const std::uint32_t* start;          ///< count[0]*count[1]*count[2] + 1 entries; first particle of each cell, x fastest
 };
 
 /// Which pairs a pass takes where bodies have steps of their own (local_steps.cpp).
@@ -104,13 +104,13 @@ enum class PairChoice : int {
 struct GroupView {
   std::uint32_t begin, end;
   CellGrid grid;
-  double h_max;             ///< [m]
+  double h_max;  ///< [m]
   bool variable_h;
-  bool gas;                 ///< bubble gas or detonation products, not liquid
+  bool gas;                    ///< bubble gas or detonation products, not liquid
   std::uint32_t material = 0;  ///< one number for all groups of one material
-  bool fast = false;        ///< see PairChoice
-  bool own_pairs = true;    ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
-  int images_of = -1;       ///< a group of images (wall_images.hpp): the group that they show
+  bool fast = false;           ///< see PairChoice
+  bool own_pairs = true;       ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
+  int images_of = -1;          ///< a group of images (wall_images.hpp): the group that they show
 };
 
 /// Images in slip walls: what pairs read of them, as PairInput's arrays of particles.
@@ -137,11 +137,11 @@ struct Block {
 
 /// Buffers of one thread for the candidates of a cluster, grown on demand.
 struct Scratch {
-  void* blocks = nullptr;            ///< what the pairs read of them
+  void* blocks = nullptr;  ///< what the pairs read of them
   std::size_t bytes = 0;
-  std::uint32_t* index = nullptr;    ///< which particles they are
+  std::uint32_t* index = nullptr;                   ///< which particles they are
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
-  std::uint32_t capacity = 0;        ///< of the last four
+  std::uint32_t capacity = 0;                       ///< of the last four
 };
 /// Makes room, keeping what is there.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
@@ -156,38 +156,38 @@ struct KernelChoice {
 
 /// Everything that the loop over pairs reads.
 struct PairInput {
-  PairChoice choice;                   ///< gradients are then of slow or of fast particles only, among all neighbours
+  PairChoice choice;  ///< gradients are then of slow or of fast particles only, among all neighbours
   int dimension;
-  double kernel_scale;                 ///< of the kernel's gradient: 1 over its lattice factor (kernels.hpp), or 1
+  double kernel_scale;  ///< of the kernel's gradient: 1 over its lattice factor (kernels.hpp), or 1
   const double *x, *y, *z;
   const FluidRow* fluid;
-  KernelChoice kernel;                 ///< read by the loop that serves any kernel
-  GradientRow* gradient;               ///< null where the scheme has no use for them, as the next two
+  KernelChoice kernel;    ///< read by the loop that serves any kernel
+  GradientRow* gradient;  ///< null where the scheme has no use for them, as the next two
   CorrectedRow* corrected;
   const ViscosityRow* viscosity;
-  ConcentrationRow* concentration;     ///< of the shifting's pass
-  const SolidRow* solid;               ///< of the solids' passes, as the next
+  ConcentrationRow* concentration;  ///< of the shifting's pass
+  const SolidRow* solid;            ///< of the solids' passes, as the next
   DeformationRow* deformation;
-  double artificial_stress, spacing;   ///< of the solids' forces
-  double contact_damping;              ///< share of the acoustic impedance
-  const GroupView* groups;             ///< of particles first, then of images
+  double artificial_stress, spacing;  ///< of the solids' forces
+  double contact_damping;             ///< share of the acoustic impedance
+  const GroupView* groups;            ///< of particles first, then of images
   int group_count;
   ImageInput images;
   const double *wall_x, *wall_y, *wall_z;
-  const WallRow* wall;                 ///< sorted by cell of wall_grid
+  const WallRow* wall;  ///< sorted by cell of wall_grid
   CellGrid wall_grid;
   std::uint32_t wall_count;
-  bool mirror[3];                      ///< symmetry planes through the origin
-  double alpha, beta;                  ///< Monaghan's viscosity; with a switch, alpha's upper bound and the beta there
-  bool partly;                         ///< only clusters within `margin` of the box are worked on
+  bool mirror[3];      ///< symmetry planes through the origin
+  double alpha, beta;  ///< Monaghan's viscosity; with a switch, alpha's upper bound and the beta there
+  bool partly;         ///< only clusters within `margin` of the box are worked on
   double disturbed_low[3], disturbed_high[3], margin;  ///< [m]
-  const Cluster* clusters;             ///< sorted by block
-  const Block* blocks;                 ///< in the order of work
+  const Cluster* clusters;                             ///< sorted by block
+  const Block* blocks;                                 ///< in the order of work
   std::uint32_t block_count;
-  int columns_y, columns_z;            ///< block columns
-  const std::uint32_t* rank;           ///< rank[iz*columns_y + iy]: place in `blocks`, or block_count where there is none
-  unsigned char* finished;             ///< one flag per block, for the loops' own use
-  Scratch* scratch;                    ///< one per thread
+  int columns_y, columns_z;   ///< block columns
+  const std::uint32_t* rank;  ///< rank[iz*columns_y + iy]: place in `blocks`, or block_count where there is none
+  unsigned char* finished;    ///< one flag per block, for the loops' own use
+  Scratch* scratch;           ///< one per thread
 };
 
 /// Sums of the loop, zero before it.

@@ -12,7 +12,7 @@ enum class SecondRow { none, gradient, corrected, viscosity };
 struct PairLoops {
   const char* cpu_level;
   SecondRow second;
-  double support;        ///< of the kernel, in smoothing lengths
+  double support;  ///< of the kernel, in smoothing lengths
   /// Fills PairInput::gradient or ::corrected, for `rates`; null where the scheme has no use for them.
   void (*gradients)(const PairInput&, const PairOutput&);
   /// Adds every pair to the sums of `out`, which the caller has set to zero.

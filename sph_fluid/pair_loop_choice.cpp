@@ -14,59 +14,61 @@ using Pass = void (*)(const PairInput&, const PairOutput&);
 
 // The oldest two kernels and schemes have loops of their own; all else goes through one loop that serves any kernel, which
 // costs a little time in a run and saves much in the build (docs/performance.md).
-#define UNDEX_DECLARE_LEVEL(level)                                                              \
-  namespace level {                                                                             \
-  struct AnyKernel;                                                                             \
-  template <class Kernel, class T>                                                              \
-  void reconstruction(const PairInput&, const PairOutput&);                                     \
-  template <class T>                                                                            \
-  void corrected_reconstruction(const PairInput&, const PairOutput&);                           \
-  template <class Kernel, class T>                                                              \
-  void monaghan_rates(const PairInput&, const PairOutput&);                                     \
-  template <class Kernel, class T>                                                              \
-  void riemann_rates(const PairInput&, const PairOutput&);                                      \
-  template <class T>                                                                            \
-  void paper_rates(const PairInput&, const PairOutput&);                                        \
-  template <class T>                                                                            \
-  void monaghan_switch_rates(const PairInput&, const PairOutput&);                              \
-  template <class T>                                                                            \
-  void riemann_corrected_rates(const PairInput&, const PairOutput&);                            \
-  template <class T>                                                                            \
-  void concentration(const PairInput&, const PairOutput&);                                      \
-  void solid_deformation(const PairInput&, const PairOutput&);                                  \
-  void solid_forces(const PairInput&, const PairOutput&);                                       \
-  void contact_overlap(const PairInput&, const PairOutput&);                                    \
-  void contact_forces(const PairInput&, const PairOutput&);                                     \
-  template <class T>                                                                            \
-  Pass rates(KernelName kernel, SchemeName scheme) {                                            \
-    switch (scheme) {                                                                           \
-      case SchemeName::paper: return &paper_rates<T>;                                           \
-      case SchemeName::monaghan_switch: return &monaghan_switch_rates<T>;                       \
-      case SchemeName::riemann_corrected: return &riemann_corrected_rates<T>;                   \
-      case SchemeName::monaghan:                                                                \
-        return kernel == KernelName::gaussian      ? &monaghan_rates<Gaussian, T>               \
-               : kernel == KernelName::wendland_c2 ? &monaghan_rates<WendlandC2, T>             \
-                                                   : &monaghan_rates<AnyKernel, T>;             \
-      case SchemeName::riemann: break;                                                          \
-    }                                                                                           \
-    return kernel == KernelName::gaussian      ? &riemann_rates<Gaussian, T>                    \
-           : kernel == KernelName::wendland_c2 ? &riemann_rates<WendlandC2, T>                  \
-                                               : &riemann_rates<AnyKernel, T>;                  \
-  }                                                                                             \
-  template <class T>                                                                            \
-  Pass gradients(KernelName kernel, SchemeName scheme) {                                        \
-    if (scheme == SchemeName::riemann_corrected) return &corrected_reconstruction<T>;           \
-    if (scheme != SchemeName::riemann) return nullptr;                                          \
-    return kernel == KernelName::gaussian      ? &reconstruction<Gaussian, T>                   \
-           : kernel == KernelName::wendland_c2 ? &reconstruction<WendlandC2, T>                 \
-                                               : &reconstruction<AnyKernel, T>;                 \
-  }                                                                                             \
-  PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) { \
-    return {name, second_row(scheme), kernel_choice(kernel, 1).support,                         \
+#define UNDEX_DECLARE_LEVEL(level)                                                                                \
+  namespace level {                                                                                               \
+  struct AnyKernel;                                                                                               \
+  template <class Kernel, class T>                                                                                \
+  void reconstruction(const PairInput&, const PairOutput&);                                                       \
+  template <class T>                                                                                              \
+  void corrected_reconstruction(const PairInput&, const PairOutput&);                                             \
+  template <class Kernel, class T>                                                                                \
+  void monaghan_rates(const PairInput&, const PairOutput&);                                                       \
+  template <class Kernel, class T>                                                                                \
+  void riemann_rates(const PairInput&, const PairOutput&);                                                        \
+  template <class T>                                                                                              \
+  void paper_rates(const PairInput&, const PairOutput&);                                                          \
+  template <class T>                                                                                              \
+  void monaghan_switch_rates(const PairInput&, const PairOutput&);                                                \
+  template <class T>                                                                                              \
+  void riemann_corrected_rates(const PairInput&, const PairOutput&);                                              \
+  template <class T>                                                                                              \
+  void concentration(const PairInput&, const PairOutput&);                                                        \
+  void solid_deformation(const PairInput&, const PairOutput&);                                                    \
+  void solid_forces(const PairInput&, const PairOutput&);                                                         \
+  void contact_overlap(const PairInput&, const PairOutput&);                                                      \
+  void contact_forces(const PairInput&, const PairOutput&);                                                       \
+  template <class T>                                                                                              \
+  Pass rates(KernelName kernel, SchemeName scheme) {                                                              \
+    switch (scheme) {                                                                                             \
+      case SchemeName::paper: return &paper_rates<T>;                                                             \
+      case SchemeName::monaghan_switch: return &monaghan_switch_rates<T>;                                         \
+      case SchemeName::riemann_corrected: return &riemann_corrected_rates<T>;                                     \
+      case SchemeName::monaghan:                                                                                  \
+        return kernel == KernelName::gaussian      ? &monaghan_rates<Gaussian, T>                                 \
+               : kernel == KernelName::wendland_c2 ? &monaghan_rates<WendlandC2, T>                               \
+                                                   : &monaghan_rates<AnyKernel, T>;                               \
+      case SchemeName::riemann: break;                                                                            \
+    }                                                                                                             \
+    return kernel == KernelName::gaussian      ? &riemann_rates<Gaussian, T>                                      \
+           : kernel == KernelName::wendland_c2 ? &riemann_rates<WendlandC2, T>                                    \
+                                               : &riemann_rates<AnyKernel, T>;                                    \
+  }                                                                                                               \
+  template <class T>                                                                                              \
+  Pass gradients(KernelName kernel, SchemeName scheme) {                                                          \
+    if (scheme == SchemeName::riemann_corrected) return &corrected_reconstruction<T>;                             \
+    if (scheme != SchemeName::riemann) return nullptr;                                                            \
+    return kernel == KernelName::gaussian      ? &reconstruction<Gaussian, T>                                     \
+           : kernel == KernelName::wendland_c2 ? &reconstruction<WendlandC2, T>                                   \
+                                               : &reconstruction<AnyKernel, T>;                                   \
+  }                                                                                                               \
+  PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision, const char* name) {                  \
+    return {name,                                                                                                 \
+            second_row(scheme),                                                                                   \
+            kernel_choice(kernel, 1).support,                                                                     \
             precision == Precision::mixed ? gradients<float>(kernel, scheme) : gradients<double>(kernel, scheme), \
-            precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme), \
-            precision == Precision::mixed ? &concentration<float> : &concentration<double>};    \
-  }                                                                                             \
+            precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme),         \
+            precision == Precision::mixed ? &concentration<float> : &concentration<double>};                      \
+  }                                                                                                               \
   }
 
 namespace {
@@ -134,8 +136,8 @@ void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
 }
 
 void release(Scratch& s) {
-  for (void* data : {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y),
-                     static_cast<void*>(s.z)})
+  for (void* data :
+       {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y), static_cast<void*>(s.z)})
     std::free(data);
   s = {};
 }

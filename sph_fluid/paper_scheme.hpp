@@ -2,8 +2,8 @@
 // particle that meets it and the velocity of its wall, v_d = v_w, not the mirrored 2 v_w - v_i of monaghan_scheme.hpp. Density
 // rate, viscosity and heat of the pair follow from that one velocity:
 //   (d rho/dt)_i = rho_i V_w v_iw . grad W,   f_i = -V_i V_w (2 p_i + viscous) grad W,   viscous from v_iw
-// The density takes up p_i of this work, one of the pair's two sides; what is left, p_i + viscous, is heat of particle i. Its part
-// p_i is no friction: it is what the dummy, the pair's other side, would store as the layer of dummies is squeezed with the
+// The density takes up p_i of this work, one of the pair's two sides; what is left, p_i + viscous, is heat of particle i. Its
+// part p_i is no friction: it is what the dummy, the pair's other side, would store as the layer of dummies is squeezed with the
 // fluid, and give back as it expands. It has either sign.
 // Between fluid particles nothing differs from monaghan_scheme.hpp.
 #pragma once
@@ -15,8 +15,8 @@ namespace undex::sph::UNDEX_LEVEL {
 template <class T>
 struct Paper : Monaghan<T> {
   using Base = Monaghan<T>;
-  using typename Base::V, typename Base::State, typename Base::Wall, typename Base::Sums;
   using Base::Base;
+  using typename Base::V, typename Base::State, typename Base::Wall, typename Base::Sums;
 
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const Mirrored<V> m = mirrored(i, w, pair);

@@ -15,8 +15,8 @@ class ParticleSystem {
   ParticleSystem(Fluid& fluid, Solids& solids, bool free_slip);
 
   struct Step {
-    double step = 0;        ///< [s]
-    StepLimit limit;        ///< the fluid's
+    double step = 0;  ///< [s]
+    StepLimit limit;  ///< the fluid's
     long solid_steps = 0;
   };
   /// One step of the fluid, not beyond `end` [s].

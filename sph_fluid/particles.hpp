@@ -28,12 +28,12 @@ struct OtherRates {
 
 struct Particles {
   // State, a structure of arrays.
-  std::vector<double> x, y, z;      ///< [m]
-  std::vector<double> vx, vy, vz;   ///< [m/s]
-  std::vector<double> rho;          ///< [kg/m^3]
-  std::vector<double> mass;         ///< [kg]
-  std::vector<double> energy;       ///< specific internal energy [J/kg]; empty where all laws are barotropic
-  std::vector<std::uint32_t> id;    ///< place at the start
+  std::vector<double> x, y, z;     ///< [m]
+  std::vector<double> vx, vy, vz;  ///< [m/s]
+  std::vector<double> rho;         ///< [kg/m^3]
+  std::vector<double> mass;        ///< [kg]
+  std::vector<double> energy;      ///< specific internal energy [J/kg]; empty where all laws are barotropic
+  std::vector<std::uint32_t> id;   ///< place at the start
 
   /// Rates. The pair loop sums forces per volume; after the evaluation fx, fy, fz are the acceleration [m/s^2] and `heat` is
   /// the viscous heating, or the whole rate of `energy` where that is a field [W/kg].
@@ -41,9 +41,10 @@ struct Particles {
   std::vector<EarlierRates> earlier;  ///< of the leapfrog
   std::vector<StepStart> start;       ///< of the Runge-Kutta method and of local steps, as the next
   std::vector<ViscosityRow> start_viscosity;
-  /// Of local steps: in the whole set the rates from pairs with a fast particle, in the set near the fast ones those from slow pairs.
+  /// Of local steps: in the whole set the rates from pairs with a fast particle, in the set near the fast ones those from slow
+  /// pairs.
   std::vector<OtherRates> other;
-  std::vector<std::uint32_t> place;   ///< of a part: index in the whole
+  std::vector<std::uint32_t> place;  ///< of a part: index in the whole
 
   /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
   /// memory serves as scratch.
@@ -68,10 +69,8 @@ struct Particles {
   void make_room(SecondRow second, double alpha, bool shifted, bool of_stages) {
     const std::size_t n = size();
     rate.assign(n, SumRow{});
-    if (of_stages)
-      start.resize(n);
-    else
-      earlier.assign(n, EarlierRates{});
+    if (of_stages) start.resize(n);
+    else earlier.assign(n, EarlierRates{});
     predicted.resize(n);
     if (second == SecondRow::gradient) gradient.resize(n);
     if (second == SecondRow::corrected) corrected.resize(n);

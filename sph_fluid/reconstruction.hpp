@@ -65,8 +65,7 @@ struct Reconstruction {
     const V stick = stick_of(w.slip);
     const V ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
     const V un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
-    add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), V{}, pair, w.volume,
-        si);
+    add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), V{}, pair, w.volume, si);
   }
 
   /// Gradients of up to a vector of particles from their sums, in the order of Sums.

@@ -3,8 +3,8 @@
 // solver with impedances Z = rho c gives
 //   p* = (pL + pR)/2 + b ZL ZR (uL - uR)/(ZL + ZR),      b = min(12 max(uL - uR, 0)/c, 1)
 //   u* = (ZL uL + ZR uR + (pL - pR)/2)/(ZL + ZR)
-// (the switch b is that of Zhang, Hu, Adams 2017, J. Comput. Phys. 335, doi 10.1016/j.jcp.2017.01.027, with 12 in place of 3: full
-// dissipation at shocks, little in smooth flow), and the rates are
+// (the switch b is that of Zhang, Hu, Adams 2017, J. Comput. Phys. 335, doi 10.1016/j.jcp.2017.01.027, with 12 in place of 3:
+// full dissipation at shocks, little in smooth flow), and the rates are
 //   (d rho/dt)_i = 2 sum_j w_ij V_j (v_i . e - u*)(-F r)
 //   (d v/dt)_i   = -2 sum_j m_j p*/(rho_i rho_j) grad W_ij
 //   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i . e - u*)(-F r)

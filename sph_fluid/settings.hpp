@@ -21,9 +21,9 @@
 namespace undex::sph {
 
 enum class SchemeName {
-  monaghan,  ///< artificial viscosity (Chen et al. 2019, eqs 5, 6)
-  riemann,   ///< limited linear reconstruction and an acoustic Riemann flux per pair
-  paper,     ///< monaghan with walls as published (paper_scheme.hpp)
+  monaghan,           ///< artificial viscosity (Chen et al. 2019, eqs 5, 6)
+  riemann,            ///< limited linear reconstruction and an acoustic Riemann flux per pair
+  paper,              ///< monaghan with walls as published (paper_scheme.hpp)
   monaghan_switch,    ///< monaghan with a coefficient per particle that rises where it is compressed (switch_scheme.hpp)
   riemann_corrected,  ///< riemann with corrected kernel gradients (corrected_scheme.hpp)
 };
@@ -72,21 +72,21 @@ enum class LatticeType {
 /// neighbouring bodies meet without gap or overlap.
 struct Lattice {
   LatticeType type = LatticeType::cartesian;
-  double spacing = 0;                     ///< dx [m]
+  double spacing = 0;  ///< dx [m]
   /// Name of the body (or wall) to whose base shape the lattice is fitted: its extent along each axis (radius, for
   /// rings) is cut into a whole number of spacings. Empty: cell corners at multiples of dx from `origin`.
   std::string fit;
-  Vec3 origin = Vec3::Zero();             ///< [m]
-  Vec3 rotation = Vec3::Zero();           ///< of a Cartesian lattice about `origin`: axis times angle [deg]; not with `fit`
+  Vec3 origin = Vec3::Zero();    ///< [m]
+  Vec3 rotation = Vec3::Zero();  ///< of a Cartesian lattice about `origin`: axis times angle [deg]; not with `fit`
   /// Jitter of the start as a share of dx, from a fixed seed: 0 is a perfect lattice.
   double jitter = 0;
 };
 
 /// State of one particle at the start.
 struct StartState {
-  double density = 0;           ///< [kg/m^3]
-  double energy = 0;            ///< specific internal energy [J/kg]; ignored where the law is barotropic
-  Vec3 velocity = Vec3::Zero(); ///< [m/s]
+  double density = 0;            ///< [kg/m^3]
+  double energy = 0;             ///< specific internal energy [J/kg]; ignored where the law is barotropic
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
 };
 
 /// A start that is not uniform: a wave, or a computation before this one.
@@ -98,24 +98,24 @@ struct StartField {
   /// Of the kept part [J]. What of it the particles have not (motion within a spacing) is heat: part of their internal energy,
   /// or dissipated where the law has none.
   double kinetic_energy = 0;
-  double internal_energy = 0;   ///< of the kept part [J]; energies are scaled to it where the law has them
+  double internal_energy = 0;  ///< of the kept part [J]; energies are scaled to it where the law has them
 };
 
 struct Body {
   std::string name;
   Shape shape;
   materials::Fluid material;
-  std::optional<double> spacing;          ///< own lattice [m]; default: the scene's
-  Vec3 velocity = Vec3::Zero();           ///< [m/s]
-  std::optional<double> pressure;         ///< [Pa]; gives the density where that is not named
-  std::optional<double> density;          ///< [kg/m^3]
-  std::optional<double> energy;           ///< specific internal energy [J/kg]; default: the material's own
+  std::optional<double> spacing;                  ///< own lattice [m]; default: the scene's
+  Vec3 velocity = Vec3::Zero();                   ///< [m/s]
+  std::optional<double> pressure;                 ///< [Pa]; gives the density where that is not named
+  std::optional<double> density;                  ///< [kg/m^3]
+  std::optional<double> energy;                   ///< specific internal energy [J/kg]; default: the material's own
   std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
-  double radial_velocity = 0;             ///< away from the middle of the shape's base, added to `velocity` [m/s]
-  std::optional<Vec3> level{};            ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
+  double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
+  std::optional<Vec3> level{};              ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
 };
 
 /// Specific internal energy [J/kg] of a uniform body at the start.
@@ -132,8 +132,8 @@ inline double start_density(const Body& body) {
   return body.material.rho0;
 }
 
-/// Pressure of a body with a level over the depth x . g/|g| below it, x from the level. Throws std::domain_error where the law has no
-/// density at a pressure of the column.
+/// Pressure of a body with a level over the depth x . g/|g| below it, x from the level. Throws std::domain_error where the law
+/// has no density at a pressure of the column.
 inline materials::HydrostaticColumn hydrostatic_column(const Body& body, const Vec3& gravity, int dimension) {
   const Vec3 down = gravity.norm() > 0.0 ? Vec3(gravity.normalized()) : Vec3::Zero();
   const Bounds box = bounds(body.shape, dimension);
@@ -149,8 +149,8 @@ inline materials::HydrostaticColumn hydrostatic_column(const Body& body, const V
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
 struct Wall {
   std::string name;
-  Primitive container;                        ///< Box or Cylinder (the fluid's side is inside)
-  std::map<std::string, FaceCondition> faces; ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"
+  Primitive container;                         ///< Box or Cylinder (the fluid's side is inside)
+  std::map<std::string, FaceCondition> faces;  ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"
 };
 
 /// Symmetry planes through the origin; the part with x[axis] >= 0 is computed.
@@ -164,19 +164,20 @@ struct Numerics {
   SchemeName scheme = SchemeName::riemann;
   Precision precision = Precision::full;
   double eta = WendlandC2::usual_eta;  ///< h/dx
-  double alpha = 1.0;         ///< Monaghan's linear coefficient (eq. 6); with a switch, its upper bound
-  double beta = 10.0;         ///< and the quadratic one; with a switch, where alpha is at its bound
-  double alpha_min = 0.1;     ///< with a switch: alpha's lower bound
-  double shifting = 0.0;      ///< share of the usual shift of particles towards uniform concentration, 0..1 (shifting.hpp)
+  double alpha = 1.0;                  ///< Monaghan's linear coefficient (eq. 6); with a switch, its upper bound
+  double beta = 10.0;                  ///< and the quadratic one; with a switch, where alpha is at its bound
+  double alpha_min = 0.1;              ///< with a switch: alpha's lower bound
+  double shifting = 0.0;  ///< share of the usual shift of particles towards uniform concentration, 0..1 (shifting.hpp)
   Integrator integrator = Integrator::leapfrog;
-  double courant = 0.35;      ///< dt = courant * min over particles of h/(signal speed)
+  double courant = 0.35;             ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
-  bool local_steps = false;   ///< may bodies with a much shorter step take substeps (leapfrog without fixed_step and shifting only)?
+  bool local_steps =
+      false;  ///< may bodies with a much shorter step take substeps (leapfrog without fixed_step and shifting only)?
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density
   /// Particles at rest are worked on from when a signal of this share of the sound speed (or of the density) comes within
   /// reach; 0: always.
   double signal = 1e-12;
-  int threads = 0;            ///< 0: all the machine has
+  int threads = 0;  ///< 0: all the machine has
 };
 
 /// What the particles of a solid body call their neighbours.
@@ -191,10 +192,10 @@ struct SolidBody {
   Shape shape;
   materials::Solid material;
   Description description = Description::total_lagrangian;
-  std::optional<double> spacing;          ///< [m]; default: the scene's
+  std::optional<double> spacing;                 ///< [m]; default: the scene's
   LatticeType lattice = LatticeType::cartesian;  ///< fitted to the body's own shape, always; rings: cylinders and tubes
-  Vec3 velocity = Vec3::Zero();           ///< [m/s]
-  Vec3 spin = Vec3::Zero();               ///< [rad/s], about the middle of the shape
+  Vec3 velocity = Vec3::Zero();                  ///< [m/s]
+  Vec3 spin = Vec3::Zero();                      ///< [rad/s], about the middle of the shape
   /// Stress in equilibrium at the start, of discs and cylinders: with R the radius, S (1 - r^2/R^2) radial and
   /// S (1 - 3 r^2/R^2) along the circumference (quenching leaves such a stress) [Pa].
   double residual_stress = 0;
@@ -205,18 +206,18 @@ struct SolidBody {
 
 /// Kernel (Wendland's) and steps of solid particles.
 struct SolidNumerics {
-  double eta = 1.3;               ///< h/dx
-  double courant = 0.5;           ///< of the stable step, as estimated from h and the longitudinal wave
-  double linear_viscosity = 0.06; ///< bulk viscosity on compression, as the elements have it (fem_structure)
+  double eta = 1.3;                ///< h/dx
+  double courant = 0.5;            ///< of the stable step, as estimated from h and the longitudinal wave
+  double linear_viscosity = 0.06;  ///< bulk viscosity on compression, as the elements have it (fem_structure)
   double quadratic_viscosity = 1.2;
-  double hourglass = 0.1;         ///< total Lagrangian: stiffness of what no deformation gradient sees, in shear moduli
-  double alpha = 1.0, beta = 2.0; ///< updated Lagrangian: viscosity of pairs (solid_schemes.hpp)
-  double artificial_stress = 0.3; ///< updated Lagrangian: share of a tension that repels particles nearer than a spacing
+  double hourglass = 0.1;          ///< total Lagrangian: stiffness of what no deformation gradient sees, in shear moduli
+  double alpha = 1.0, beta = 2.0;  ///< updated Lagrangian: viscosity of pairs (solid_schemes.hpp)
+  double artificial_stress = 0.3;  ///< updated Lagrangian: share of a tension that repels particles nearer than a spacing
 };
 
 struct Settings {
   int dimension = 3;
-  Vec3 gravity = Vec3::Zero();            ///< [m/s^2], of fluid and solids alike; its image across a symmetry plane is mirrored
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2], of fluid and solids alike; its image across a symmetry plane is mirrored
   Lattice lattice;
   std::vector<Body> bodies;
   std::vector<SolidBody> solids;
@@ -225,8 +226,8 @@ struct Settings {
   std::vector<Wall> walls;
   Symmetry symmetry;
   Numerics numerics;
-  double start_time = 0;                  ///< [s]
-  double heat_before = 0;                 ///< dissipated before the start, in barotropic bodies of the kept part [J]
+  double start_time = 0;   ///< [s]
+  double heat_before = 0;  ///< dissipated before the start, in barotropic bodies of the kept part [J]
 };
 
 }  // namespace undex::sph

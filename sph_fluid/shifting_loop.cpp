@@ -1,4 +1,5 @@
-// The concentration that particles are shifted by, compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+// The concentration that particles are shifted by, compiled once per instruction set; see pair_loop.hpp for the choice at
+// start-up.
 #include "sph_fluid/cluster_work.hpp"
 #include "sph_fluid/shifting.hpp"
 

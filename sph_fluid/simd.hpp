@@ -115,20 +115,20 @@ UNDEX_INLINE int bits_of(Mask<double> m) { return _mm_movemask_pd((__m128d)m); }
 
 /// r[a][b] becomes r[b][a].
 UNDEX_INLINE void transpose(Vec<double> (&r)[lanes<double>]) {
-#define UNDEX_SWAP(a, b, low, high)                                                    \
-  {                                                                                    \
-    const Vec<double> x = r[a], y = r[b];                                              \
-    r[a] = __builtin_shufflevector(x, y, low);                                         \
-    r[b] = __builtin_shufflevector(x, y, high);                                        \
+#define UNDEX_SWAP(a, b, low, high)             \
+  {                                             \
+    const Vec<double> x = r[a], y = r[b];       \
+    r[a] = __builtin_shufflevector(x, y, low);  \
+    r[b] = __builtin_shufflevector(x, y, high); \
   }
 #define UNDEX_LIST(...) __VA_ARGS__
 #if UNDEX_VECTOR_BYTES == 64
-_Pragma("GCC unroll 8") for (int a = 0; a < 4; ++a)
-    UNDEX_SWAP(a, a + 4, UNDEX_LIST(0, 1, 2, 3, 8, 9, 10, 11), UNDEX_LIST(4, 5, 6, 7, 12, 13, 14, 15))
-_Pragma("GCC unroll 8") for (int b = 0; b < 4; ++b)
-    UNDEX_SWAP(b + (b & 2), b + (b & 2) + 2, UNDEX_LIST(0, 1, 8, 9, 4, 5, 12, 13), UNDEX_LIST(2, 3, 10, 11, 6, 7, 14, 15))
-_Pragma("GCC unroll 8") for (int a = 0; a < 8; a += 2)
-    UNDEX_SWAP(a, a + 1, UNDEX_LIST(0, 8, 2, 10, 4, 12, 6, 14), UNDEX_LIST(1, 9, 3, 11, 5, 13, 7, 15))
+  _Pragma("GCC unroll 8") for (int a = 0; a < 4; ++a)
+      UNDEX_SWAP(a, a + 4, UNDEX_LIST(0, 1, 2, 3, 8, 9, 10, 11), UNDEX_LIST(4, 5, 6, 7, 12, 13, 14, 15))
+          _Pragma("GCC unroll 8") for (int b = 0; b < 4; ++b) UNDEX_SWAP(
+              b + (b & 2), b + (b & 2) + 2, UNDEX_LIST(0, 1, 8, 9, 4, 5, 12, 13), UNDEX_LIST(2, 3, 10, 11, 6, 7, 14, 15))
+              _Pragma("GCC unroll 8") for (int a = 0; a < 8; a += 2)
+                  UNDEX_SWAP(a, a + 1, UNDEX_LIST(0, 8, 2, 10, 4, 12, 6, 14), UNDEX_LIST(1, 9, 3, 11, 5, 13, 7, 15))
 #elif UNDEX_VECTOR_BYTES == 32
   for (int a = 0; a < 2; ++a) UNDEX_SWAP(a, a + 2, UNDEX_LIST(0, 1, 4, 5), UNDEX_LIST(2, 3, 6, 7))
   for (int a = 0; a < 4; a += 2) UNDEX_SWAP(a, a + 1, UNDEX_LIST(0, 4, 2, 6), UNDEX_LIST(1, 5, 3, 7))

@@ -13,8 +13,8 @@ namespace undex::sph {
 std::vector<std::string> solid_faces(const Primitive& shape, int dimension);
 
 struct Face {
-  double depth = 0;                 ///< of the point behind the face [m]
-  Vec3 outward = Vec3::Zero();      ///< unit normal
+  double depth = 0;             ///< of the point behind the face [m]
+  Vec3 outward = Vec3::Zero();  ///< unit normal
 };
 
 /// The nearest of the body's wet faces (of all, where it names none). Faces are taken as endless: a point near an edge lies

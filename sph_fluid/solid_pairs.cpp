@@ -91,7 +91,8 @@ void SolidPairs::pack(const SolidParticles& p) {
     try {
       cells_[g].build(x_.data(), y_.data(), z_.data(), range.begin, range.end, 2.0 * range.spacing);
     } catch (const std::domain_error&) {
-      throw NumericalStop("solid '" + range.body->name + "': a particle's position is not finite; a smaller "
+      throw NumericalStop("solid '" + range.body->name +
+                          "': a particle's position is not finite; a smaller "
                           "solid_scheme.courant may help");
     }
     const std::vector<std::uint32_t>& order = cells_[g].order();
@@ -223,10 +224,9 @@ void SolidPairs::hand_back(SolidParticles& p) const {
 }
 
 std::size_t SolidPairs::memory_bytes() const {
-  std::size_t bytes = rows_.size() * (sizeof(std::uint32_t) + 3 * sizeof(double) + sizeof(FluidRow) + sizeof(SolidRow) +
-                                      sizeof(SumRow)) +
-                      inverse_deformation_.size() * sizeof(Mat3) +
-                      deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
+  std::size_t bytes =
+      rows_.size() * (sizeof(std::uint32_t) + 3 * sizeof(double) + sizeof(FluidRow) + sizeof(SolidRow) + sizeof(SumRow)) +
+      inverse_deformation_.size() * sizeof(Mat3) + deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
   return bytes;
 }

@@ -18,8 +18,8 @@ class SolidPairs {
   /// A body's particles.
   struct Range {
     std::uint32_t begin, end;
-    double spacing, h;     ///< [m]
-    bool updated;          ///< does it work with the pairs of the present?
+    double spacing, h;  ///< [m]
+    bool updated;       ///< does it work with the pairs of the present?
     const SolidBody* body;
   };
   SolidPairs(const Settings& settings, std::vector<Range> ranges);
@@ -48,17 +48,17 @@ class SolidPairs {
   SolidLoops loops_ = solid_loops();
   std::vector<Range> ranges_;
   std::vector<CellList> cells_;
-  std::vector<GroupView> views_;                   ///< with the h of the bodies' own pairs
-  std::vector<GroupView> contact_views_;           ///< and of contact
+  std::vector<GroupView> views_;          ///< with the h of the bodies' own pairs
+  std::vector<GroupView> contact_views_;  ///< and of contact
   BlockOrder blocks_;
   bool updated_ = false;
-  std::vector<std::uint32_t> particle_;            ///< of each row
+  std::vector<std::uint32_t> particle_;  ///< of each row
   std::vector<double> x_, y_, z_;
   std::vector<FluidRow> rows_;
   std::vector<SolidRow> solid_;
   std::vector<DeformationRow> deformation_;
   std::vector<SumRow> sums_;
-  std::vector<Mat3> inverse_deformation_;          ///< empty where there is no water
+  std::vector<Mat3> inverse_deformation_;  ///< empty where there is no water
   std::vector<long long> interactions_;
   std::vector<Scratch> scratch_;
 };

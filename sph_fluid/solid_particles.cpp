@@ -9,14 +9,12 @@ namespace undex::sph {
 void SolidParticles::resize(std::size_t n) {
   for (auto* field : {&start, &x, &v, &force}) field->assign(n, Vec3::Zero());
   for (auto& component : deviator) component.assign(n, 0.0);
-  for (auto* field : {&mass, &rho, &pressure, &viscous_pressure, &plastic_strain, &temperature, &damage, &energy,
-                      &plastic_energy, &viscous_energy, &contact_pressure, &contact_reference, &sound, &heat, &rate})
+  for (auto* field : {&mass, &rho, &pressure, &viscous_pressure, &plastic_strain, &temperature, &damage, &energy, &plastic_energy,
+                      &viscous_energy, &contact_pressure, &contact_reference, &sound, &heat, &rate})
     field->assign(n, 0.0);
 }
 
-std::size_t SolidParticles::memory_bytes() const {
-  return size() * (4 * sizeof(Vec3) + (6 + 15) * sizeof(double));
-}
+std::size_t SolidParticles::memory_bytes() const { return size() * (4 * sizeof(Vec3) + (6 + 15) * sizeof(double)); }
 
 Mat3 SolidParticles::stress(std::size_t i) const {
   Mat3 s;

@@ -236,8 +236,7 @@ void Solids::move_wall(MovingWall& wall, double ahead) const {
     wall.volume[k] = p.mass[i] / p.rho[i];
     const SolidGroup& group = s.group_of(i);
     // Area vectors go with the inverse transpose.
-    const Mat3 inverse =
-        group.lagrangian ? Mat3(group.lagrangian->deformation(i).inverse()) : s.pairs->inverse_deformation(i);
+    const Mat3 inverse = group.lagrangian ? Mat3(group.lagrangian->deformation(i).inverse()) : s.pairs->inverse_deformation(i);
     wall.normal[k] = (inverse.transpose() * s.wet_normal[k]).normalized();
   }
 }

@@ -31,8 +31,8 @@ struct VelocityGradient {
   using State = FluidState<V>;
   using Wall = NoWall<V>;
   struct Sums {
-    V m[6] = {};       // xx, yy, zz, xy, yz, zx of sum V_j d d^T F, negative
-    V v[9] = {};       // sum V_j (v_j - v_i)_a (d)_b F at 3a + b
+    V m[6] = {};  // xx, yy, zz, xy, yz, zx of sum V_j d d^T F, negative
+    V v[9] = {};  // sum V_j (v_j - v_i)_a (d)_b F at 3a + b
     static constexpr int count = 15;
     static constexpr bool is_maximum(int) { return false; }
 
@@ -158,7 +158,8 @@ struct SolidForces {
     const V jump = vr - T(0.5) * (left + right);
     const V mu = pair.h * jump * reciprocal(pair.r2 + T(0.01) * (pair.h * pair.h));
     const V density = i.rho + j.rho;
-    const V viscous = i.rho * j.rho * mu * (2 * beta * minimum(mu, V{}) - alpha * (i.shear_sound + j.shear_sound)) * reciprocal(density);
+    const V viscous =
+        i.rho * j.rho * mu * (2 * beta * minimum(mu, V{}) - alpha * (i.shear_sound + j.shear_sound)) * reciprocal(density);
     // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
     const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
     const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));

@@ -64,8 +64,8 @@ void Solids::Implementation::fill() {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SolidBody& body = settings.solids[b];
     const materials::Solid& solid = body.material;
-    SolidGroup group{&body, at, at + std::uint32_t(bodies[b].position.size()), body.spacing.value_or(settings.lattice.spacing),
-                     0.0, nullptr};
+    SolidGroup group{
+        &body, at, at + std::uint32_t(bodies[b].position.size()), body.spacing.value_or(settings.lattice.spacing), 0.0, nullptr};
     group.h = settings.solid_numerics.eta * group.spacing;
     for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
       particles.start[at] = particles.x[at] = bodies[b].position[k];
@@ -79,8 +79,7 @@ void Solids::Implementation::fill() {
     if (body.description == Description::total_lagrangian)
       group.lagrangian = std::make_unique<TotalLagrangian>(settings, body, group.begin, group.end, group.h, group.spacing,
                                                            bodies[b].volume, particles);
-    else
-      updated = true;
+    else updated = true;
     groups.push_back(std::move(group));
   }
   if (updated || groups.size() > 1) {
@@ -145,8 +144,8 @@ void Solids::Implementation::step(double dt) {
   {
     const auto timer = timers.measure("solid integration");
     external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) {
-      return impulse_force[i].dot(particles.v[i] + 0.5 * dt * acceleration[i]);
-    });
+                       return impulse_force[i].dot(particles.v[i] + 0.5 * dt * acceleration[i]);
+                     });
 #pragma omp parallel for schedule(static)
     for (std::uint32_t i = 0; i < n; ++i) particles.v[i] += 0.5 * dt * acceleration[i];
     meet_planes(dt);
@@ -161,9 +160,7 @@ void Solids::Implementation::step(double dt) {
   ++steps;
   {
     const auto timer = timers.measure("solid integration");
-    external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) {
-      return impulse_force[i].dot(particles.v[i]);
-    });
+    external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) { return impulse_force[i].dot(particles.v[i]); });
 #pragma omp parallel for schedule(static)
     for (std::uint32_t i = 0; i < n; ++i) particles.v[i] += 0.5 * dt * acceleration[i];
   }
@@ -230,8 +227,8 @@ void Solids::Implementation::find_acceleration() {
 
 double Solids::Implementation::held_back(double dt) const {
   return dt * dt / 8.0 * blocked_sum<double>(0, std::uint32_t(particles.size()), [&](std::uint32_t i) {
-    return particles.mass[i] * acceleration[i].squaredNorm();
-  });
+           return particles.mass[i] * acceleration[i].squaredNorm();
+         });
 }
 
 std::uint32_t Solids::Implementation::fastest() const {
@@ -250,10 +247,10 @@ const SolidGroup& Solids::Implementation::group_of(std::uint32_t particle) const
 std::string Solids::Implementation::description_of(std::uint32_t i, const char* what, double dt) const {
   std::ostringstream text;
   const Vec3 &x = particles.x[i], &start = particles.start[i];
-  text << "solid '" << group_of(i).body->name << "', step " << steps << ", time " << time << " s: particle " << i
-       << ", from (" << start[0] << ", " << start[1] << ", " << start[2] << ") m, now at (" << x[0] << ", " << x[1] << ", "
-       << x[2] << ") m, " << what << "; the step was " << dt << " s; a smaller solid_scheme.courant ("
-       << settings.solid_numerics.courant << "), or description = \"updated_lagrangian\" for a body that is torn, may help";
+  text << "solid '" << group_of(i).body->name << "', step " << steps << ", time " << time << " s: particle " << i << ", from ("
+       << start[0] << ", " << start[1] << ", " << start[2] << ") m, now at (" << x[0] << ", " << x[1] << ", " << x[2] << ") m, "
+       << what << "; the step was " << dt << " s; a smaller solid_scheme.courant (" << settings.solid_numerics.courant
+       << "), or description = \"updated_lagrangian\" for a body that is torn, may help";
   return text.str();
 }
 
@@ -264,9 +261,7 @@ Solids::~Solids() = default;
 Solids::Solids(Solids&&) noexcept = default;
 Solids& Solids::operator=(Solids&&) noexcept = default;
 
-double Solids::stable_step() const {
-  return self_->settings.solid_numerics.courant / self_->particles.rate[self_->fastest()];
-}
+double Solids::stable_step() const { return self_->settings.solid_numerics.courant / self_->particles.rate[self_->fastest()]; }
 
 void Solids::advance(double t_end, std::span<const Vec3> impulse) {
   Implementation& s = *self_;

@@ -22,14 +22,14 @@ namespace undex::sph {
 /// Energy [J], momentum and mass of the computed part, booked since the start.
 struct SolidLedger {
   double kinetic = 0;
-  double elastic = 0;      ///< stored, hourglass energy included
-  double plastic = 0;      ///< plastic work
-  double viscous = 0;      ///< by viscosity, and what contact between bodies has taken
-  double external = 0;     ///< work of impulses received, and of rigid planes (never positive)
-  double gravity = 0;      ///< work of gravity
-  double integrator = 0;   ///< what central differences hold back: dt^2/8 m a.a, known exactly (fem::Energies::integrator)
-  double mass = 0;                       ///< [kg]
-  Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
+  double elastic = 0;            ///< stored, hourglass energy included
+  double plastic = 0;            ///< plastic work
+  double viscous = 0;            ///< by viscosity, and what contact between bodies has taken
+  double external = 0;           ///< work of impulses received, and of rigid planes (never positive)
+  double gravity = 0;            ///< work of gravity
+  double integrator = 0;         ///< what central differences hold back: dt^2/8 m a.a, known exactly (fem::Energies::integrator)
+  double mass = 0;               ///< [kg]
+  Vec3 momentum = Vec3::Zero();  ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m^2/s]
 
   /// Stays at its first value, but for what finite strain within a step leaves.
@@ -64,12 +64,12 @@ class Solids {
   void kick(std::span<const Vec3> impulse);
 
   SolidLedger ledger() const;
-  std::span<const Vec3> positions() const;      ///< [m]
-  std::span<const Vec3> velocities() const;     ///< [m/s], at time()
-  std::span<const Vec3> accelerations() const;  ///< [m/s^2]
+  std::span<const Vec3> positions() const;           ///< [m]
+  std::span<const Vec3> velocities() const;          ///< [m/s], at time()
+  std::span<const Vec3> accelerations() const;       ///< [m/s^2]
   double particle_mass(std::size_t particle) const;  ///< [kg]
-  Mat3 stress(std::size_t particle) const;      ///< Cauchy [Pa]
-  double maximum_pressure() const;              ///< [Pa]
+  Mat3 stress(std::size_t particle) const;           ///< Cauchy [Pa]
+  double maximum_pressure() const;                   ///< [Pa]
 
   /// Copies a field for output: position, displacement, velocity (3 components, interleaved); pressure, density, von_mises,
   /// plastic_strain, temperature, energy, damage, material, sound_speed, mass, id (1). Throws std::invalid_argument for
@@ -80,14 +80,14 @@ class Solids {
   /// it, exact for linear fields, also a little outside (a surface lies half a spacing beyond the last particles).
   struct Point {
     std::vector<std::uint32_t> particles;
-    std::vector<double> weights;      ///< their sum is 1
+    std::vector<double> weights;        ///< their sum is 1
     std::vector<unsigned char> images;  ///< mirrored across which planes (bit a: axis a)
-    double distance = 0;              ///< from the nearest particle [m]
+    double distance = 0;                ///< from the nearest particle [m]
   };
   Point locate(const Vec3& reference_position) const;
   struct PointValues {
     Vec3 position, displacement, velocity, acceleration;
-    Mat3 stress;                      ///< Cauchy [Pa]
+    Mat3 stress;  ///< Cauchy [Pa]
     double plastic_strain, temperature;
   };
   PointValues read(const Point& point) const;

@@ -15,17 +15,17 @@ namespace undex::sph {
 struct SolidGroup {
   const SolidBody* body;
   std::uint32_t begin, end;
-  double spacing, h;                             // [m]
-  std::unique_ptr<TotalLagrangian> lagrangian;   // null: updated Lagrangian
+  double spacing, h;                            // [m]
+  std::unique_ptr<TotalLagrangian> lagrangian;  // null: updated Lagrangian
 };
 
 struct Solids::Implementation {
   Settings settings;
   SolidParticles particles;
   std::vector<SolidGroup> groups;
-  std::unique_ptr<SolidPairs> pairs;             // null where no body is updated and none can touch another
-  std::vector<Vec3> acceleration, impulse_force; // [m/s^2], [N]
-  std::vector<Vec3> wet_normal;                  // at the start, per wet particle
+  std::unique_ptr<SolidPairs> pairs;              // null where no body is updated and none can touch another
+  std::vector<Vec3> acceleration, impulse_force;  // [m/s^2], [N]
+  std::vector<Vec3> wet_normal;                   // at the start, per wet particle
   std::vector<std::uint32_t> wet;
   PassTimers timers;
   double time = 0, last_step = 0;
@@ -50,7 +50,7 @@ struct Solids::Implementation {
   double held_back(double dt) const;
 
   const SolidGroup& group_of(std::uint32_t particle) const;
-  std::uint32_t fastest() const;                 // the particle that limits the step
+  std::uint32_t fastest() const;  // the particle that limits the step
   /// Throws NumericalStop where a step's new stresses or forces cannot be gone on with. Positions and velocities are left in
   /// the middle of the step, between its two kicks, and finite; stresses are those that went wrong.
   void expect_sound(double dt);

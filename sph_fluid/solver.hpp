@@ -24,12 +24,12 @@ struct Group {
   const Body* body = nullptr;
   std::uint32_t begin = 0, end = 0;
   std::uint32_t first_id = 0;
-  bool fast = false;                     // does it take substeps (local_steps.cpp)?
-  double spacing = 0, h0 = 0;            // [m]
-  double h_max = 0;                      // [m], the largest at present
-  std::uint32_t material = 0;            // one number for all groups of one material
-  double rest_density = 0;               // [kg/m^3], of what no signal has reached
-  std::vector<double> lighting;          // burning charges only, by id - first_id [s]
+  bool fast = false;             // does it take substeps (local_steps.cpp)?
+  double spacing = 0, h0 = 0;    // [m]
+  double h_max = 0;              // [m], the largest at present
+  std::uint32_t material = 0;    // one number for all groups of one material
+  double rest_density = 0;       // [kg/m^3], of what no signal has reached
+  std::vector<double> lighting;  // burning charges only, by id - first_id [s]
   CellList cells;
 };
 
@@ -69,13 +69,13 @@ struct ParticleSet {
   Particles particles;
   std::vector<Group> groups;
   std::vector<GroupView> views;
-  WallImages images;                             // of the particles, in slip walls
+  WallImages images;  // of the particles, in slip walls
   BlockOrder blocks;
-  std::vector<long long> interactions;           // per block
-  PairChoice choice = PairChoice::all;           // whose rates Particles::rate holds
-  std::vector<std::vector<Vec3>> moving_force;   // at the last evaluation, per moving wall [N]
-  double wall_power = 0;                         // work on moving walls at the last evaluation [W]
-  double reach = 0;                              // largest distance of a pair [m]
+  std::vector<long long> interactions;          // per block
+  PairChoice choice = PairChoice::all;          // whose rates Particles::rate holds
+  std::vector<std::vector<Vec3>> moving_force;  // at the last evaluation, per moving wall [N]
+  double wall_power = 0;                        // work on moving walls at the last evaluation [W]
+  double reach = 0;                             // largest distance of a pair [m]
 };
 
 /// A body's own largest step.
@@ -88,22 +88,22 @@ struct BodyLimit {
 struct Fluid::Implementation : ParticleSet {
   Settings settings;
   PairLoops loops;
-  double kernel_scale = 1;                       // 1 over the kernel's lattice factor
+  double kernel_scale = 1;  // 1 over the kernel's lattice factor
   SlipFaces slip_walls;
   std::vector<MovingWall> rigid;
   std::vector<MovingWall> moving;
-  std::vector<std::vector<Vec3>> whole_force;    // of local steps: the sum of both sets', per moving wall [N]
+  std::vector<std::vector<Vec3>> whole_force;  // of local steps: the sum of both sets', per moving wall [N]
   struct WallOrigin {
-    int wall;             // index into `moving`, or -1 - index into `rigid`
+    int wall;  // index into `moving`, or -1 - index into `rigid`
     std::uint32_t point;
   };
   std::vector<WallOrigin> wall_origin;
-  std::vector<double> wall_place[3];             // sorted by cell, as the next two
+  std::vector<double> wall_place[3];  // sorted by cell, as the next two
   std::vector<WallRow> wall_rows;
   std::vector<ForceRow> wall_force;
   CellList wall_cells;
   bool walls_packed = false;
-  std::vector<WallMotion> walls_seen;            // at the last evaluation, per moving wall; unless all take one leapfrog's step
+  std::vector<WallMotion> walls_seen;  // at the last evaluation, per moving wall; unless all take one leapfrog's step
   int threads = 1;
   std::vector<Scratch> scratch;
   PassTimers timers;
@@ -111,23 +111,23 @@ struct Fluid::Implementation : ParticleSet {
   long steps = 0;
   bool has_energy = false;
   bool evaluated = false;
-  bool sound = true;                             // is the last evaluation finite, and slower than `fastest`?
+  bool sound = true;  // is the last evaluation finite, and slower than `fastest`?
   double dissipated = 0, wall_work = 0;
-  double lifted = 0;                             // fall() at the start [J]
+  double lifted = 0;  // fall() at the start [J]
   long long interaction_sum = 0;
   Clamps clamps;
   Disturbed disturbed;
-  bool everywhere = true;                        // are all particles worked on, signal or not?
-  double evaluation_time = 0;                    // of the state that rates are evaluated at [s]
-  double last_step = 0;                          // [s]; 0: none that the predictor could go on
-  bool limits_known = false;                     // has step_limit been asked since the last step?
+  bool everywhere = true;      // are all particles worked on, signal or not?
+  double evaluation_time = 0;  // of the state that rates are evaluated at [s]
+  double last_step = 0;        // [s]; 0: none that the predictor could go on
+  bool limits_known = false;   // has step_limit been asked since the last step?
 
   // Of local steps.
-  ParticleSet near;                              // the fast bodies and the slow particles near them
-  bool near_walls = false;                       // has a fast particle a wall's within reach?
-  double last_substep = 0;                       // [s], as last_step
-  double slow_ahead = 0, slow_bend = 0;          // weights of the slow pairs' rates in what fast pairs see [s]
-  static constexpr int most_substeps = 8;        // beyond it impulses of slow pairs come near the period of fast waves
+  ParticleSet near;                        // the fast bodies and the slow particles near them
+  bool near_walls = false;                 // has a fast particle a wall's within reach?
+  double last_substep = 0;                 // [s], as last_step
+  double slow_ahead = 0, slow_bend = 0;    // weights of the slow pairs' rates in what fast pairs see [s]
+  static constexpr int most_substeps = 8;  // beyond it impulses of slow pairs come near the period of fast waves
   long substeps = 0;
 
   explicit Implementation(const Settings& settings);

@@ -16,10 +16,8 @@ namespace {
 double barotropic_energy(const materials::FluidLaw& law, double rho) {
   return std::visit(
       [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::uses_energy)
-          return 0.0;
-        else
-          return l.barotropic_energy(rho);
+        if constexpr (std::decay_t<decltype(l)>::uses_energy) return 0.0;
+        else return l.barotropic_energy(rho);
       },
       law);
 }
@@ -112,31 +110,30 @@ const Body& Fluid::Implementation::body_of(std::uint32_t i) const {
 
 const char* Fluid::Implementation::remedy() const {
   if (settings.numerics.fixed_step) return "a smaller scheme.fixed_step, or none,";
-  return is_viscous(settings.numerics.scheme) ? "a smaller scheme.courant or a larger scheme.beta"
-                                              : "a smaller scheme.courant";
+  return is_viscous(settings.numerics.scheme) ? "a smaller scheme.courant or a larger scheme.beta" : "a smaller scheme.courant";
 }
 
 std::string Fluid::Implementation::what_is_wrong() const {
   const Particles& p = particles;
   char text[400];
   for (std::uint32_t i = 0; i < p.size(); ++i) {
-    const std::pair<const char*, double> values[] = {
-        {"position", p.x[i] + p.y[i] + p.z[i]}, {"velocity", p.vx[i] + p.vy[i] + p.vz[i]}, {"density", p.rho[i]},
-        {"acceleration", p.rate[i].fx + p.rate[i].fy + p.rate[i].fz}, {"pressure", p.predicted[i].p},
-        {"sound speed", p.predicted[i].c}, {"heating", p.rate[i].heat}};
+    const std::pair<const char*, double> values[] = {{"position", p.x[i] + p.y[i] + p.z[i]},
+                                                     {"velocity", p.vx[i] + p.vy[i] + p.vz[i]},
+                                                     {"density", p.rho[i]},
+                                                     {"acceleration", p.rate[i].fx + p.rate[i].fy + p.rate[i].fz},
+                                                     {"pressure", p.predicted[i].p},
+                                                     {"sound speed", p.predicted[i].c},
+                                                     {"heating", p.rate[i].heat}};
     for (const auto& [name, value] : values)
       if (!std::isfinite(value)) {
         std::snprintf(text, sizeof text,
                       "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
                       "%s may hold it",
-                      steps, time, name, p.id[i], body_of(i).name.c_str(), p.x[i], p.y[i], p.z[i],
-                      remedy());
+                      steps, time, name, p.id[i], body_of(i).name.c_str(), p.x[i], p.y[i], p.z[i], remedy());
         return text;
       }
   }
-  const auto speed = [&](std::uint32_t i) {
-    return std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-  };
+  const auto speed = [&](std::uint32_t i) { return std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]); };
   std::uint32_t i = 0;
   for (std::uint32_t k = 0; k < p.size(); ++k)
     if (speed(k) > speed(i)) i = k;
@@ -151,9 +148,8 @@ double Fluid::Implementation::fall() const {
   const Particles& p = particles;
   const Vec3& g = settings.gravity;
   if (g.isZero()) return 0.0;
-  return blocked_sum<double>(0, std::uint32_t(p.size()), [&](std::uint32_t i) {
-    return p.mass[i] * (g[0] * p.x[i] + g[1] * p.y[i] + g[2] * p.z[i]);
-  });
+  return blocked_sum<double>(0, std::uint32_t(p.size()),
+                             [&](std::uint32_t i) { return p.mass[i] * (g[0] * p.x[i] + g[1] * p.y[i] + g[2] * p.z[i]); });
 }
 
 Ledger Fluid::Implementation::ledger() const {
@@ -236,8 +232,7 @@ PointValues Fluid::Implementation::at(const Vec3& point) const {
     weight += w;
     values.pressure += w * q.p;
     values.density += w * q.rho;
-    values.void_fraction +=
-        w * std::visit([&](const auto& law) { return law.void_fraction(q.rho); }, group.body->material.law);
+    values.void_fraction += w * std::visit([&](const auto& law) { return law.void_fraction(q.rho); }, group.body->material.law);
     const double v[3] = {q.vx, q.vy, q.vz};
     for (int a = 0; a < 3; ++a) values.velocity[a] += w * (image >> a & 1 ? -v[a] : v[a]);
     ++values.neighbours;
@@ -284,8 +279,8 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
       const Group& group = groups[g];
       const materials::FluidLaw& law = group.body->material.law;
       for (std::uint32_t i = group.begin; i < group.end; ++i)
-        out[i] = name == "material"      ? double(g)
-                 : name == "void_fraction" ? std::visit([&](const auto& l) { return l.void_fraction(p.rho[i]); }, law)
+        out[i] = name == "material"            ? double(g)
+                 : name == "void_fraction"     ? std::visit([&](const auto& l) { return l.void_fraction(p.rho[i]); }, law)
                  : materials::uses_energy(law) ? p.energy[i]
                                                : barotropic_energy(law, p.rho[i]);
     }

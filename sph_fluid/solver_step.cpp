@@ -23,10 +23,8 @@ double advanced_density(double rho, double rate_times_step) {
 
 void Fluid::Implementation::step(double dt) {
   if (!evaluated || (may_part() && !limits_known)) step_limit();
-  if (settings.numerics.integrator == Integrator::ssp_rk3 || choice != PairChoice::all)
-    step_or_stay(dt);
-  else
-    step_leapfrog(dt);
+  if (settings.numerics.integrator == Integrator::ssp_rk3 || choice != PairChoice::all) step_or_stay(dt);
+  else step_leapfrog(dt);
   time += dt;
   last_step = dt;
   ++steps;
@@ -60,10 +58,8 @@ void Fluid::Implementation::step_or_stay(double dt) {
   const Exchange booked = exchange();
   particles.keep_start();
   try {
-    if (settings.numerics.integrator == Integrator::ssp_rk3)
-      step_ssp_rk3(dt);
-    else
-      step_local(dt);
+    if (settings.numerics.integrator == Integrator::ssp_rk3) step_ssp_rk3(dt);
+    else step_local(dt);
   } catch (const NumericalStop&) {
     particles.restore_start();
     cross_mirrors();
@@ -178,8 +174,8 @@ void Fluid::Implementation::book_exchange(double duration) {
   // Heat counts as dissipated where no energy field takes it up.
   for (const Group& group : groups)
     if (!materials::uses_energy(group.body->material.law))
-      dissipated += duration * blocked_sum<double>(group.begin, group.end,
-                                               [&](std::uint32_t i) { return p.mass[i] * p.rate[i].heat; });
+      dissipated +=
+          duration * blocked_sum<double>(group.begin, group.end, [&](std::uint32_t i) { return p.mass[i] * p.rate[i].heat; });
   for (std::size_t w = 0; w < moving.size(); ++w)
     for (std::size_t k = 0; k < moving_force[w].size(); ++k) moving[w].impulse[k] += duration * moving_force[w][k];
   wall_work += duration * wall_power;
@@ -262,8 +258,8 @@ void Fluid::Implementation::equation_of_state(double half, double bend) {
   double h_max = 0;
   for (Group& group : groups) {
     std::visit([&](const auto& law) { evaluate_group(law, group, half, bend); }, group.body->material.law);
-    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h,
-                     group.body->variable_h, group.material, group.fast});
+    views.push_back({group.begin, group.end, group.cells.view(), group.h_max, group.body->variable_h, group.body->variable_h,
+                     group.material, group.fast});
     h_max = std::max(h_max, group.h_max);
   }
   reach = loops.support * h_max;
@@ -332,8 +328,8 @@ void Fluid::Implementation::evaluate_group(const Law& law, Group& group, double 
   if (group.begin < group.end) group.h_max = h_max;
 }
 
-materials::PressureSound Fluid::Implementation::burning_state(const materials::Jwl& law, const Group& group, std::uint32_t k, double rho,
-                                       double energy) const {
+materials::PressureSound Fluid::Implementation::burning_state(const materials::Jwl& law, const Group& group, std::uint32_t k,
+                                                              double rho, double energy) const {
   const materials::ProgrammedBurn& burn = *group.body->burn;
   double fraction = 1.0;
   if (!burn.instantaneous) {
@@ -485,8 +481,7 @@ void Fluid::Implementation::pairs(const PairInput& in) {
   const auto timer = timers.measure("pairs");
   interactions.resize(blocks.block_count());
   std::fill(wall_force.begin(), wall_force.end(), ForceRow{});
-  const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), images.sums(),
-                       interactions.data()};
+  const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), images.sums(), interactions.data()};
   if (settings.numerics.shifting > 0.0) loops.concentration(in, out);
   if (loops.gradients) {
     loops.gradients(in, out);

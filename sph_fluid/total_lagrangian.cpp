@@ -54,8 +54,7 @@ class Bins {
  private:
   std::size_t bin(const Vec3& point) const {
     long at[3];
-    for (int a = 0; a < 3; ++a)
-      at[a] = std::clamp(long(std::floor((point[a] - box_.low[a]) / width_)), 0L, count_[a] - 1);
+    for (int a = 0; a < 3; ++a) at[a] = std::clamp(long(std::floor((point[a] - box_.low[a]) / width_)), 0L, count_[a] - 1);
     return (std::size_t(at[2]) * count_[1] + at[1]) * count_[0] + at[0];
   }
 
@@ -87,8 +86,7 @@ TotalLagrangian::TotalLagrangian(const Settings& settings, const SolidBody& body
   find_neighbours(settings, volume, particles);
 }
 
-void TotalLagrangian::find_neighbours(const Settings& settings, std::span<const double> volume,
-                                      const SolidParticles& particles) {
+void TotalLagrangian::find_neighbours(const Settings& settings, std::span<const double> volume, const SolidParticles& particles) {
   const std::uint32_t n = end_ - begin_;
   const double reach = Kernel::support * h_;
   const std::span<const Vec3> X(particles.start.data() + begin_, n);
@@ -110,8 +108,7 @@ void TotalLagrangian::find_neighbours(const Settings& settings, std::span<const 
   };
   first_.assign(n + 1, 0);
 #pragma omp parallel for schedule(dynamic, 256)
-  for (std::uint32_t i = 0; i < n; ++i)
-    for_each_neighbour(i, [&](std::uint32_t, unsigned, const Vec3&) { ++first_[i + 1]; });
+  for (std::uint32_t i = 0; i < n; ++i) for_each_neighbour(i, [&](std::uint32_t, unsigned, const Vec3&) { ++first_[i + 1]; });
   for (std::uint32_t i = 0; i < n; ++i) first_[i + 1] += first_[i];
   neighbours_.resize(first_[n]);
   std::uint32_t lonely = n;

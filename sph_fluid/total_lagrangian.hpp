@@ -38,8 +38,8 @@ class TotalLagrangian {
  private:
   struct Neighbour {
     double wx, wy, wz, s;
-    std::uint32_t index;   ///< of the body's own numbering
-    std::uint32_t image;   ///< mirrored across which planes
+    std::uint32_t index;  ///< of the body's own numbering
+    std::uint32_t image;  ///< mirrored across which planes
   };
   struct alignas(64) Row {
     double a[9], k, x[3];
@@ -53,12 +53,12 @@ class TotalLagrangian {
   int dimension_;
   double h_, spacing_, hourglass_, yield_;
   BulkViscosity viscosity_;
-  std::vector<std::uint64_t> first_;          ///< of each particle's neighbours
+  std::vector<std::uint64_t> first_;  ///< of each particle's neighbours
   std::vector<Neighbour> neighbours_;
   std::vector<double> start_density_, volume_;
   std::vector<Mat3> inverse_moment_, deformation_;
-  std::vector<double> stretched_;             ///< sum_j s_ij |F_i X_ij - x_ij|^2 [N m/Pa]
-  std::vector<double> stiffness_;             ///< k [Pa]
+  std::vector<double> stretched_;  ///< sum_j s_ij |F_i X_ij - x_ij|^2 [N m/Pa]
+  std::vector<double> stiffness_;  ///< k [Pa]
   std::vector<Row> rows_;
 };
 

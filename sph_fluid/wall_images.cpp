@@ -131,9 +131,7 @@ struct Patch {
     Vec3 foot, normal, foot_u, foot_v, normal_u, normal_v;
 
     /// Volume element a distance behind the surface (in front of it: negative).
-    double element(double behind) const {
-      return (foot_u + behind * normal_u).cross(foot_v + behind * normal_v).dot(normal);
-    }
+    double element(double behind) const { return (foot_u + behind * normal_u).cross(foot_v + behind * normal_v).dot(normal); }
   };
   Frame frame(double u, double v) const {
     Frame f;
@@ -196,8 +194,11 @@ SlipFaces slip_faces(const Settings& settings) {
       const bool cut = settings.symmetry.axis[axis] && window.low[axis] <= 0.0;
       const bool with_low = slips(low) && !cut, with_high = slips(high);
       if (with_low || with_high)
-        result.plane.push_back(
-            {axis, cut ? 0.0 : with_low ? window.low[axis] : -1e300, with_high ? window.high[axis] : 1e300, cut, window});
+        result.plane.push_back({axis,
+                                cut        ? 0.0
+                                : with_low ? window.low[axis]
+                                           : -1e300,
+                                with_high ? window.high[axis] : 1e300, cut, window});
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
       if (slips("side")) result.round.push_back(*cylinder);
@@ -239,7 +240,8 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
   velocities_.resize(moving.size());
   while (footprints_.size() < moving.size()) {
     const MovingWall& wall = moving[footprints_.size()];
-    footprints_.emplace_back(wall.mesh, wall.position, smoothing_length(settings, settings.lattice.spacing), settings.symmetry.axis);
+    footprints_.emplace_back(wall.mesh, wall.position, smoothing_length(settings, settings.lattice.spacing),
+                             settings.symmetry.axis);
   }
   feet_.clear();
   const double beyond = 0.5 * settings.lattice.spacing;
@@ -285,7 +287,11 @@ void WallImages::find_feet(const Settings& settings, const std::vector<MovingWal
               for (std::uint32_t i = row[first[0]]; i < row[last[0] + 1]; ++i) {
                 const Vec3 x(particles.x[i], particles.y[i], particles.z[i]), away = x - middle.foot;
                 const double bu = away.dot(middle.foot_u), bv = away.dot(middle.foot_v);
-                Foot foot{i, int(w), f, 0.5 + (vv * bu - uv * bv) / determinant, 0.5 + (uu * bv - uv * bu) / determinant,
+                Foot foot{i,
+                          int(w),
+                          f,
+                          0.5 + (vv * bu - uv * bv) / determinant,
+                          0.5 + (uu * bv - uv * bu) / determinant,
                           -away.dot(middle.normal)};
                 if (std::abs(foot.u - 0.5) > 0.5 + margin || std::abs(foot.v - 0.5) > 0.5 + margin) continue;
                 if (!patch.project(x, range.depth, foot)) continue;
@@ -339,7 +345,8 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
           const auto add = [&](const Reflection& image, int parent) {
             mine.push_back({i, parent, -1, image.stretch, image.place, image.normal, Vec3::Zero()});
           };
-          auto foot = std::lower_bound(feet_.begin(), feet_.end(), i, [](const Foot& a, std::uint32_t k) { return a.particle < k; });
+          auto foot =
+              std::lower_bound(feet_.begin(), feet_.end(), i, [](const Foot& a, std::uint32_t k) { return a.particle < k; });
           for (; foot != feet_.end() && foot->particle == i; ++foot) {
             if (foot->distance <= 0.0) continue;
             const WallPoint wall = wall_point(moving, normals_, velocities_, *foot);

@@ -25,11 +25,11 @@ struct SlipFaces {
   /// Faces across one axis; either may be missing. Between both stand images of images, as in two mirrors.
   struct Pair {
     int axis;
-    double low, high;            ///< [m]; -+1e300 where there is none
-    bool symmetric;              ///< is `low` a symmetry plane, whose own images are not stored?
-    Bounds window;               ///< of the container
+    double low, high;  ///< [m]; -+1e300 where there is none
+    bool symmetric;    ///< is `low` a symmetry plane, whose own images are not stored?
+    Bounds window;     ///< of the container
   };
-  std::vector<Cylinder> round;   ///< their sides
+  std::vector<Cylinder> round;  ///< their sides
   std::vector<Pair> plane;
 };
 SlipFaces slip_faces(const Settings& settings);
@@ -44,17 +44,17 @@ constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::p
 struct Foot {
   std::uint32_t particle;
   int wall, face;
-  double u, v, distance;         ///< [m], positive on the fluid's side
+  double u, v, distance;  ///< [m], positive on the fluid's side
 };
 
 class WallImages {
  public:
   /// Images of a range of particles sorted by `cells`.
   struct Range {
-    std::uint32_t first, last;   ///< particles
+    std::uint32_t first, last;  ///< particles
     const CellList* cells;
-    double width;                ///< of the images' cells [m]
-    double depth;                ///< particles nearer to a wall than this have images [m]
+    double width;  ///< of the images' cells [m]
+    double depth;  ///< particles nearer to a wall than this have images [m]
   };
   /// Finds the images of particles.
   void build(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving, const Particles& particles,
@@ -85,24 +85,24 @@ class WallImages {
 
  private:
   struct Image {
-    std::uint32_t owner;         // the particle
-    int parent;                  // the image that this is an image of; -1: the particle itself
-    int foot;                    // index into feet_, -1: a rigid wall
-    double stretch;              // volume over the parent's
+    std::uint32_t owner;                // the particle
+    int parent;                         // the image that this is an image of; -1: the particle itself
+    int foot;                           // index into feet_, -1: a rigid wall
+    double stretch;                     // volume over the parent's
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
   };
   void find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
                  std::span<const Range> ranges);
 
-  std::vector<Footprint> footprints_;       // per moving wall
-  std::vector<std::vector<Vec3>> normals_;  // per moving wall and node, as the next
+  std::vector<Footprint> footprints_;          // per moving wall
+  std::vector<std::vector<Vec3>> normals_;     // per moving wall and node, as the next
   std::vector<std::vector<Vec3>> velocities_;  // that the feet see
-  std::vector<Foot> feet_;                  // sorted by particle
-  std::vector<Image> images_;               // by particle, parents before their images
-  std::vector<std::uint32_t> slot_;         // place of an image in the arrays below
+  std::vector<Foot> feet_;                     // sorted by particle
+  std::vector<Image> images_;                  // by particle, parents before their images
+  std::vector<std::uint32_t> slot_;            // place of an image in the arrays below
   std::vector<std::uint32_t> begin_;
   std::vector<CellList> cells_;
-  std::vector<double> x_, y_, z_;           // sorted by cell, as the next
+  std::vector<double> x_, y_, z_;  // sorted by cell, as the next
   std::vector<FluidRow> rows_;
   std::vector<GradientRow> gradients_;
   std::vector<CorrectedRow> corrected_;

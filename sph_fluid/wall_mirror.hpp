@@ -28,8 +28,7 @@ UNDEX_INLINE Mirrored<V> mirrored(const FluidState<V>& i, const WallState<V>& w,
   const V un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
   const V xn = w.slip * (pair.dx * w.nx + pair.dy * w.ny + pair.dz * w.nz);
   Mirrored<V> m;
-  m.approach = 2 * ((un * w.nx + stick * ux) * pair.dx + (un * w.ny + stick * uy) * pair.dy +
-                    (un * w.nz + stick * uz) * pair.dz);
+  m.approach = 2 * ((un * w.nx + stick * ux) * pair.dx + (un * w.ny + stick * uy) * pair.dy + (un * w.nz + stick * uz) * pair.dz);
   m.ex = xn * w.nx + stick * pair.dx;
   m.ey = xn * w.ny + stick * pair.dy;
   m.ez = xn * w.nz + stick * pair.dz;

@@ -60,8 +60,9 @@ class SceneMutations : public ::testing::Test {
     try {
       const scene::Scene read = scene::read(file, overrides);
       ++good_;
-      EXPECT_EQ(scene::to_toml(scene::read((std::ofstream(folder_ / "again.toml") << scene::to_toml(read), folder_ / "again.toml"))),
-                scene::to_toml(read));
+      EXPECT_EQ(
+          scene::to_toml(scene::read((std::ofstream(folder_ / "again.toml") << scene::to_toml(read), folder_ / "again.toml"))),
+          scene::to_toml(read));
     } catch (const SceneError& error) {
       ++refused_;
       EXPECT_FALSE(error.findings().empty());
@@ -125,9 +126,9 @@ TEST_F(SceneMutations, LinesRemovedAndRepeated) {
 }
 
 TEST_F(SceneMutations, NumbersReplaced) {
-  const std::vector<std::string> values{"0",    "-1",  "1e300", "-1e300", "1e-300", "inf", "nan", "9223372036854775807",
-                                        "1e-9", "1e9", "\"\"",  "[]",     "{}",     "1",   "2",   "0.5",
-                                        "1979-05-27", "[[[1]]]", "1e5", "-0.0"};
+  const std::vector<std::string> values{"0",          "-1",      "1e300", "-1e300", "1e-300", "inf", "nan", "9223372036854775807",
+                                        "1e-9",       "1e9",     "\"\"",  "[]",     "{}",     "1",   "2",   "0.5",
+                                        "1979-05-27", "[[[1]]]", "1e5",   "-0.0"};
   for (int i = 0; i < 2 * tries(); ++i) {
     std::string& text = any_scene();
     for (std::size_t k = 0, count = 1 + below(2); k < count; ++k)
@@ -145,10 +146,27 @@ TEST_F(SceneMutations, ScenesSpliced) {
 }
 
 TEST_F(SceneMutations, WildOverrides) {
-  const std::vector<std::string> words{"bodies", "water", "0", "1", "shape", "low", "material", "burn", "structure", "cells",
-                                       "symmetry", "planes", "resolution", "spacing", "x", "", "99999999999999999999", "probes"};
-  const std::vector<std::string> values{"1", "-1", "[]", "{}", "[1, 2]", "word", "\"", "{a = 1}", "1\n", "[\"x\"]", "inf",
-                                        "\"petn\"", "{base = \"petn\"}", "", "[[", "true"};
+  const std::vector<std::string> words{"bodies",
+                                       "water",
+                                       "0",
+                                       "1",
+                                       "shape",
+                                       "low",
+                                       "material",
+                                       "burn",
+                                       "structure",
+                                       "cells",
+                                       "symmetry",
+                                       "planes",
+                                       "resolution",
+                                       "spacing",
+                                       "x",
+                                       "",
+                                       "99999999999999999999",
+                                       "probes"};
+  const std::vector<std::string> values{
+      "1", "-1", "[]",  "{}", "[1, 2]", "word", "\"", "{a = 1}", "1\n", "[\"x\"]", "inf", "\"petn\"", "{base = \"petn\"}",
+      "",  "[[", "true"};
   for (int i = 0; i < tries(); ++i) {
     std::string path = words[below(words.size())];
     for (std::size_t k = 0, count = below(4); k < count; ++k) path += '.' + words[below(words.size())];
@@ -182,7 +200,8 @@ TEST_F(SceneMutations, StudiesDamaged) {
     const std::size_t from = below(sound.size());
     survives_as_study(sound.substr(0, from) + sound.substr(std::min(sound.size(), from + below(60))));
   }
-  for (const char* text : {"", "axes = 3", "[[axes]]\n[[axes]]", "exclude = 1", "scenes = 7", "[axes]\nname = 1", "settings = []", "errors = {}"})
+  for (const char* text :
+       {"", "axes = 3", "[[axes]]\n[[axes]]", "exclude = 1", "scenes = 7", "[axes]\nname = 1", "settings = []", "errors = {}"})
     survives_as_study(text);
 }
 

@@ -16,7 +16,8 @@ double period(int particles, SchemeName scheme, KernelName kernel, double& sound
   // A body has one velocity, so every particle is a body.
   for (int i = 0; i < particles; ++i) {
     const double low = length * i / particles, high = length * (i + 1) / particles;
-    settings.bodies.push_back(slab("slice " + std::to_string(i), low, high, "water-tait", amplitude * std::sin(pi * 0.5 * (low + high) / length)));
+    settings.bodies.push_back(
+        slab("slice " + std::to_string(i), low, high, "water-tait", amplitude * std::sin(pi * 0.5 * (low + high) / length)));
     settings.bodies.back().pressure = 1e7;
   }
   Wall wall;
@@ -37,8 +38,7 @@ double period(int particles, SchemeName scheme, KernelName kernel, double& sound
     const std::vector<double> x = along_x(fluid.field("position")), u = along_x(fluid.field("velocity"));
     double mode = 0;
     for (std::size_t i = 0; i < x.size(); ++i) mode += u[i] * std::sin(pi * x[i] / length);
-    if (before * mode < 0)
-      crossings.push_back(time_before + (fluid.time() - time_before) * before / (before - mode));
+    if (before * mode < 0) crossings.push_back(time_before + (fluid.time() - time_before) * before / (before - mode));
     before = mode;
     time_before = fluid.time();
   }

@@ -13,8 +13,17 @@ namespace undex::sph::testing {
 
 /// One-dimensional body between low and high [m].
 inline Body slab(const std::string& name, double low, double high, const std::string& material, double velocity) {
-  return Body{name, Shape{Box{Vec3(low, -1, -1), Vec3(high, 1, 1)}, {}}, materials::find_fluid(material).value(), {}, Vec3(velocity, 0, 0),
-              {}, {}, {}, {}, false, {}};
+  return Body{name,
+              Shape{Box{Vec3(low, -1, -1), Vec3(high, 1, 1)}, {}},
+              materials::find_fluid(material).value(),
+              {},
+              Vec3(velocity, 0, 0),
+              {},
+              {},
+              {},
+              {},
+              false,
+              {}};
 }
 
 inline Settings scene_1d(double spacing, SchemeName scheme) {

@@ -64,8 +64,8 @@ TEST_P(PlaneShock, StateBehindItIsExactAtAnySpacing) {
     const Shocked found = run(spacing, GetParam());
     std::printf("  spacing %g: pressure %+.3f %%, density by distance %+.3f %%, overshoot %.2f %%\n", spacing,
                 100 * (found.pressure / p - 1), 100 * (rho0 * spacing / found.spacing / rho - 1), 100 * (found.largest / p - 1));
-    // With the weight rho_i in place of rho_j the pressure is 0.7 % low at every spacing. With corrected gradients it is 0.2 % low:
-    // what expands again behind the front is corrected, what was compressed in it was not. (V_j alone: 0.4 % low.)
+    // With the weight rho_i in place of rho_j the pressure is 0.7 % low at every spacing. With corrected gradients it is 0.2 %
+    // low: what expands again behind the front is corrected, what was compressed in it was not. (V_j alone: 0.4 % low.)
     EXPECT_NEAR(found.pressure / p, 1.0, GetParam() == SchemeName::riemann ? 1e-3 : 3e-3) << spacing;
     EXPECT_NEAR(found.density / rho, 1.0, 2e-4) << spacing;
     // The density that is carried is that of the particles' distances.

@@ -37,7 +37,7 @@ Errors run(int particles, SchemeName scheme) {
   settings.bodies = {slab("left", 0, 0.5, "sjogreen-gas", -2), slab("right", 0.5, 1, "sjogreen-gas", 2)};
   for (Body& body : settings.bodies) body.variable_h = true;
   settings.numerics.courant = 0.1;  // a zone in the middle thins out faster than a sound wave crosses it
-  settings.numerics.h_high = 60;  // the gas in the middle is 46 times thinner
+  settings.numerics.h_high = 60;    // the gas in the middle is 46 times thinner
   Fluid fluid(settings);
   run_until(fluid, 0.15);
   const std::vector<double> x = along_x(fluid.field("position")), u = along_x(fluid.field("velocity"));

@@ -83,8 +83,7 @@ TEST(SignedDistance, IsOneLipschitz) {
       for (int i = 0; i < 500; ++i) {
         Vec3 a(at(random), at(random), at(random)), b = a + 0.1 * Vec3(at(random), at(random), at(random));
         const double moved = (a - b).head(dimension).norm();
-        EXPECT_LE(std::abs(signed_distance(shape, a, dimension) - signed_distance(shape, b, dimension)),
-                  moved + 1e-12);
+        EXPECT_LE(std::abs(signed_distance(shape, a, dimension) - signed_distance(shape, b, dimension)), moved + 1e-12);
       }
 }
 
@@ -121,12 +120,15 @@ TEST(Volume, AgreesWithTheFormulas) {
       {"thin tube", {TubeShape{1, c, 0.05, 0.051, 0, 1}, {}}, everything, 3, pi * (0.051 * 0.051 - 0.0025)},
       {"water round a charge",
        {Cylinder{2, Vec3::Zero(), r, -half, half}, {Sphere{Vec3::Zero(), charge}}},
-       octant, 3, pi * r * r * half / 4 - pi / 6 * std::pow(charge, 3)},
-      {"box with a bite",
-       {Box{Vec3(0, 0, 0), Vec3(1, 1, 1)}, {Sphere{Vec3(1, 1, 1), 0.5}}},
-       everything, 3, 1 - pi / 6 * 0.125},
-      {"square with a hole", {Box{Vec3(0, 0, 0), Vec3(1, 1, 0)}, {Cylinder{2, Vec3(0.5, 0.5, 0), 0.3, 0, 1}}},
-       everything, 2, 1 - pi * 0.09},
+       octant,
+       3,
+       pi * r * r * half / 4 - pi / 6 * std::pow(charge, 3)},
+      {"box with a bite", {Box{Vec3(0, 0, 0), Vec3(1, 1, 1)}, {Sphere{Vec3(1, 1, 1), 0.5}}}, everything, 3, 1 - pi / 6 * 0.125},
+      {"square with a hole",
+       {Box{Vec3(0, 0, 0), Vec3(1, 1, 0)}, {Cylinder{2, Vec3(0.5, 0.5, 0), 0.3, 0, 1}}},
+       everything,
+       2,
+       1 - pi * 0.09},
       {"half a ball by a slab", {Sphere{Vec3::Zero(), 1}, {Slab{0, 0, 5}}}, everything, 3, 2 * pi / 3},
   };
   for (const VolumeCase& each : cases) {

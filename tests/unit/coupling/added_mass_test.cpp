@@ -74,8 +74,17 @@ struct Column {
     sph::Settings s;
     s.dimension = 1;
     s.lattice.spacing = 1.0;
-    s.bodies = {sph::Body{"water", Shape{Box{Vec3(-length, -1, -1), Vec3(0, 1, 1)}, {}}, water, {}, Vec3(speed, 0, 0), rest_pressure, {}, {},
-                          {}, false, {}}};
+    s.bodies = {sph::Body{"water",
+                          Shape{Box{Vec3(-length, -1, -1), Vec3(0, 1, 1)}, {}},
+                          water,
+                          {},
+                          Vec3(speed, 0, 0),
+                          rest_pressure,
+                          {},
+                          {},
+                          {},
+                          false,
+                          {}}};
     s.numerics.threads = 1;
     if (fixed_step) s.numerics.fixed_step = *fixed_step / sound;
     return s;
@@ -212,7 +221,8 @@ TEST(AddedMass, SecondOrderInTheStep) {
       const std::vector<double> found = velocities(1 << k);
       for (std::size_t i = 0; i < found.size(); ++i) error[k] += std::abs(found[i] - exact[i]) / double(found.size());
     }
-    std::printf("  plate of %.2f layers, limit and its half and quarter: errors %.2e, %.2e, %.2e\n", layers, error[0], error[1], error[2]);
+    std::printf("  plate of %.2f layers, limit and its half and quarter: errors %.2e, %.2e, %.2e\n", layers, error[0], error[1],
+                error[2]);
     EXPECT_LT(error[0], 0.05);
     EXPECT_GT(std::log2(error[0] / error[1]), 1.7);
     EXPECT_GT(std::log2(error[1] / error[2]), 1.7);
@@ -229,9 +239,10 @@ TEST(AddedMass, LightPlatesAreHeldByTheLimit) {
     EXPECT_LT((ledger.impulse_given - ledger.impulse_received).norm(), 1e-13 * ledger.impulse_exchanged);
     // Over what the wave that the plate sends back would have done to a rigid wall.
     const double scale = rho * Column::speed * Column::speed * 10;
-    const double energy = (column.energy() - column.start_energy) / scale, work = (ledger.work_given - ledger.work_received) / scale;
-    std::printf("  plate of %.2f layers: at most %.3f of the water's velocity, energy error %.1e, of the interface %.1e\n", layers, fastest,
-                energy, work);
+    const double energy = (column.energy() - column.start_energy) / scale,
+                 work = (ledger.work_given - ledger.work_received) / scale;
+    std::printf("  plate of %.2f layers: at most %.3f of the water's velocity, energy error %.1e, of the interface %.1e\n",
+                layers, fastest, energy, work);
     EXPECT_GT(fastest, 1.0);
     EXPECT_LT(fastest, 2.0);
     EXPECT_LT(std::abs(energy), 0.01);

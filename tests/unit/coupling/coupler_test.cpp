@@ -23,10 +23,10 @@ materials::Solid elastic(double density, double young) {
 struct Choice {
   double density = 2700, young = 70e9;  ///< of the plate
   std::array<int, 3> cells{3, 2, 2};
-  double water_speed = 50;              ///< towards the plate [m/s]
+  double water_speed = 50;  ///< towards the plate [m/s]
   double structure_courant = 0.8, fluid_courant = 0.3;
   double window = 1.0;
-  bool open = false;                    ///< nothing beside the water: a free drop meets a free plate
+  bool open = false;  ///< nothing beside the water: a free drop meets a free plate
 };
 
 /// A column of water in a channel hits a plate that closes it at z = 0; everything else is free.
@@ -40,8 +40,17 @@ struct Column {
     sph::Settings settings;
     settings.lattice.spacing = 0.005;
     const Vec3 low(0, 0, -0.06), high(0.03, 0.02, 0);
-    settings.bodies = {sph::Body{"water", Shape{Box{low, high}, {}}, materials::find_fluid("water-tait").value(), {},
-                                 Vec3(0, 0, s.water_speed), {}, {}, {}, {}, false, {}}};
+    settings.bodies = {sph::Body{"water",
+                                 Shape{Box{low, high}, {}},
+                                 materials::find_fluid("water-tait").value(),
+                                 {},
+                                 Vec3(0, 0, s.water_speed),
+                                 {},
+                                 {},
+                                 {},
+                                 {},
+                                 false,
+                                 {}}};
     if (!s.open) {
       sph::Wall channel;
       channel.name = "channel";
@@ -162,11 +171,11 @@ TEST(Coupler, HeavyPlateIsARigidWall) {
 /// One water step over several of the structure's, and the other way round: impulse and momentum are exact both ways, and
 /// both get the same plate.
 TEST(Coupler, SubCyclingBothWays) {
-  Choice soft;          // the structure may take longer steps than the water
+  Choice soft;  // the structure may take longer steps than the water
   soft.young = 1e9;
   soft.cells = {1, 1, 1};
   soft.fluid_courant = 0.1;
-  Choice stiff;         // fine cells: shorter ones
+  Choice stiff;  // fine cells: shorter ones
   stiff.cells = {3, 2, 16};
   stiff.fluid_courant = 0.6;
   for (const bool fine : {false, true}) {

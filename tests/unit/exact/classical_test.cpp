@@ -14,8 +14,7 @@ TEST(Noh, FrontConservesMassMomentumEnergy) {
     const Noh noh{.dimension = d, .gamma = 1.4, .density = 2.0, .speed = 3.0};
     const double t = 0.5, front = noh.shock_radius(t), speed = front / t;
     const GasSample in = noh.sample(front * (1 - 1e-12), t), out = noh.sample(front * (1 + 1e-12), t);
-    EXPECT_NEAR(in.density * (in.velocity - speed), out.density * (out.velocity - speed),
-                1e-9 * in.density * speed);
+    EXPECT_NEAR(in.density * (in.velocity - speed), out.density * (out.velocity - speed), 1e-9 * in.density * speed);
     EXPECT_NEAR(in.pressure + in.density * in.velocity * (in.velocity - speed),
                 out.pressure + out.density * out.velocity * (out.velocity - speed), 1e-9 * in.pressure);
     EXPECT_NEAR(in.pressure, 0.4 * in.density * in.energy, 1e-12 * in.pressure);
@@ -37,8 +36,7 @@ TEST(Sedov, HoldsMassEnergyAndTheFirstIntegral) {
   for (const int d : {1, 2, 3})
     for (const double gamma : {1.4, 5.0 / 3.0}) {
       const Sedov blast(d, gamma, 2.0, 5.0);
-      const double t = 0.7, R = blast.shock_radius(t),
-                   area = d == 1 ? 1.0 : (d == 2 ? 2.0 : 4.0) * std::numbers::pi;
+      const double t = 0.7, R = blast.shock_radius(t), area = d == 1 ? 1.0 : (d == 2 ? 2.0 : 4.0) * std::numbers::pi;
       const int n = 20000;
       double mass = 0, energy = 0;
       for (int i = 0; i < n; ++i) {
@@ -54,8 +52,7 @@ TEST(Sedov, HoldsMassEnergyAndTheFirstIntegral) {
         const GasSample s = blast.sample(share * R, t);
         const double surface = share * R * 2.0 / ((d + 2.0) * t);
         const double total = s.pressure / (gamma - 1.0) + 0.5 * s.density * s.velocity * s.velocity;
-        EXPECT_NEAR(total * (s.velocity - surface) + s.pressure * s.velocity, 0.0, 1e-6 * total * surface)
-            << d << share;
+        EXPECT_NEAR(total * (s.velocity - surface) + s.pressure * s.velocity, 0.0, 1e-6 * total * surface) << d << share;
       }
       EXPECT_EQ(blast.sample(1.01 * R, t).pressure, 0.0);
     }
@@ -63,12 +60,10 @@ TEST(Sedov, HoldsMassEnergyAndTheFirstIntegral) {
 }
 
 TEST(TaylorPlate, NumbersOfTheScene) {
-  const TaylorPlate plate{
-      .peak = 1e5, .decay = 20e-6, .impedance = 1000.0 * 1480.0, .plate_mass = 2700.0 * 6.35e-3};
+  const TaylorPlate plate{.peak = 1e5, .decay = 20e-6, .impedance = 1000.0 * 1480.0, .plate_mass = 2700.0 * 6.35e-3};
   EXPECT_NEAR(plate.cavitation_time(), 15.0e-6, 0.05e-6);
   EXPECT_NEAR(plate.impulse() / (2.0 * 1e5 * 20e-6), 0.273, 5e-4);
-  EXPECT_NEAR(plate.impulse() / (2.0 * 1e5 * 20e-6),
-              std::pow(plate.ratio(), plate.ratio() / (1 - plate.ratio())), 1e-12);
+  EXPECT_NEAR(plate.impulse() / (2.0 * 1e5 * 20e-6), std::pow(plate.ratio(), plate.ratio() / (1 - plate.ratio())), 1e-12);
 }
 
 TEST(TaylorPlate, ObeysNewton) {
@@ -121,8 +116,7 @@ TEST(Elastic, BarImpactBalances) {
     for (int i = 0; i < n; ++i) {
       const auto s = bar.sample((i + 0.5) * bar.length / n, t);
       momentum += s.velocity * bar.density * bar.length / n;
-      energy +=
-          0.5 * (bar.density * s.velocity * s.velocity + s.stress * s.stress / bar.young) * bar.length / n;
+      energy += 0.5 * (bar.density * s.velocity * s.velocity + s.stress * s.stress / bar.young) * bar.length / n;
     }
     const double start = bar.density * bar.length * bar.speed;
     const double wall = -bar.sample(0.0, t).stress;

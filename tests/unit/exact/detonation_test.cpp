@@ -34,8 +34,7 @@ TEST(TaylorWave, LiesOnTheClosedIsentrope) {
     const TaylorWave wave(petn(), d);
     const auto& cj = wave.front();
     const double v_cj = j.rho0 / cj.density;
-    const double C =
-        (cj.pressure - j.A * std::exp(-j.R1 * v_cj) - j.B * std::exp(-j.R2 * v_cj)) * std::pow(v_cj, 1.25);
+    const double C = (cj.pressure - j.A * std::exp(-j.R1 * v_cj) - j.B * std::exp(-j.R2 * v_cj)) * std::pow(v_cj, 1.25);
     for (const double share : {0.1, 0.55, 0.7, 0.9, 0.999}) {
       const auto s = wave.sample(share * cj.detonation_speed, 1.0);
       const double v = j.rho0 / s.density;

@@ -71,21 +71,15 @@ Bubble bubble(int cells) {
   const FluidLaw water = fluid("water-tait");
   const double radius = 15e-3, outer = 70e-3;
   const int inside = cells / 4, outside = cells - inside;
-  Lagrangian1D s(3,
-                 {{.law = fluid("bubble-gas"), .inner = 0, .outer = radius, .cells = inside, .density = 1770},
-                  {.law = water,
-                   .inner = radius,
-                   .outer = outer,
-                   .cells = outside,
-                   .ratio = grading(outer - radius, outside, radius / inside),
-                   .density = materials::density_at(water, 1e5, 0.0)}});
+  Lagrangian1D s(3, {{.law = fluid("bubble-gas"), .inner = 0, .outer = radius, .cells = inside, .density = 1770},
+                     {.law = water,
+                      .inner = radius,
+                      .outer = outer,
+                      .cells = outside,
+                      .ratio = grading(outer - radius, outside, radius / inside),
+                      .density = materials::density_at(water, 1e5, 0.0)}});
   s.advance(8e-6);
-  Bubble b{s.shock_front(200e6),
-           s.interface_radius(0),
-           s.at(30.5e-3).pressure,
-           s.integral(0.0, 0.07).momentum,
-           0.0,
-           0.0};
+  Bubble b{s.shock_front(200e6), s.interface_radius(0), s.at(30.5e-3).pressure, s.integral(0.0, 0.07).momentum, 0.0, 0.0};
   const double wall = 44.45e-3;
   double last_pressure = 1e5;
   for (double t = 13e-6; t < 16e-6; t += 1e-8) {
@@ -150,13 +144,11 @@ TEST(Explosion, FreeFieldPressureConverges) {
   const FluidLaw water = fluid("water-tait");
   const auto history = [&](int cells) {
     const double radius = 10e-3;
-    Lagrangian1D s(3, {charge(radius, cells),
-                       {.law = water,
-                        .inner = radius,
-                        .outer = 80e-3,
-                        .cells = 7 * cells,
-                        .density = materials::density_at(water, 1e5, 0.0)}},
-                   Boundary::rigid, Boundary::transmitting);
+    Lagrangian1D s(
+        3,
+        {charge(radius, cells),
+         {.law = water, .inner = radius, .outer = 80e-3, .cells = 7 * cells, .density = materials::density_at(water, 1e5, 0.0)}},
+        Boundary::rigid, Boundary::transmitting);
     std::vector<double> p;
     for (int i = 1; i <= 1000; ++i) {
       s.advance(40e-6 * i / 1000);

@@ -22,10 +22,9 @@ struct Column {
   double rest_pressure = 1.0, decay = 20e-6;
   double density = materials::density_at(law, rest_pressure, 0.0);
   PlaneWave wave(double peak) const { return {law, density, 0.0, peak, decay}; }
-  Lagrangian1D mesh(double peak, double length, int cells, const Lagrangian1DOptions& options,
-                    Boundary outer = Boundary::free, double front = 0.0) const {
-    const Layer water{.law = law, .inner = -length, .outer = 0.0, .cells = cells,
-                      .start = [wave = wave(peak), front](double x) {
+  Lagrangian1D mesh(double peak, double length, int cells, const Lagrangian1DOptions& options, Boundary outer = Boundary::free,
+                    double front = 0.0) const {
+    const Layer water{.law = law, .inner = -length, .outer = 0.0, .cells = cells, .start = [wave = wave(peak), front](double x) {
                         const PlaneWaveState s = wave.at(front - x);
                         return StartPoint{s.density, s.velocity, s.energy};
                       }};
@@ -63,7 +62,8 @@ TEST(PlaneWave, IsAcousticWhenWeakAndAShockToThirdOrder) {
     const PlaneWave wave(law, density, 0.0, peak, 20e-6);
     const PlaneWaveState front = wave.front();
     const ShockState shock = shock_to(law, density, 0.0, front.pressure);
-    const double difference = std::abs(front.velocity - (front.pressure - wave.rest().pressure) / shock.mass_flux) / front.velocity;
+    const double difference =
+        std::abs(front.velocity - (front.pressure - wave.rest().pressure) / shock.mass_flux) / front.velocity;
     EXPECT_LT(difference, 5e-4);
     if (last > 0) {
       EXPECT_GT(last / difference, 3.6) << peak;  // relative: second order

@@ -42,11 +42,9 @@ inline void take_volumes(Grid& grid) {
     for (int q = 0; q < 8; ++q) {
       Mat3 jacobian = Mat3::Zero();
       for (int i = 0; i < 8; ++i)
-        for (int d = 0; d < 3; ++d)
-          jacobian.col(d) += grid.nodes[grid.cells[c][i]] * grid.reference.gradient[d][i][q];
+        for (int d = 0; d < 3; ++d) jacobian.col(d) += grid.nodes[grid.cells[c][i]] * grid.reference.gradient[d][i][q];
       for (int i = 0; i < 8; ++i)
-        grid.nodal_volume[c][i] +=
-            grid.reference.value[i][q] * grid.reference.weight[q] * jacobian.determinant();
+        grid.nodal_volume[c][i] += grid.reference.value[i][q] * grid.reference.weight[q] * jacobian.determinant();
     }
   }
 }

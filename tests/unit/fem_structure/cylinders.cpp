@@ -52,7 +52,8 @@ WallErrors thick_wall(int through, double c) {
   const double z = 0.05 / through;
   const double u_b = tube.read(tube.locate(Vec3(exact.b, 0, z))).displacement[0];
   const double shear = settings.material.shear_modulus;
-  WallErrors errors{std::sqrt(u_b * exact.b * std::sqrt(3.0) * shear / ((1.0 - exact.poisson) * exact.yield)) / c - 1.0, 0.0, 0.0};
+  WallErrors errors{std::sqrt(u_b * exact.b * std::sqrt(3.0) * shear / ((1.0 - exact.poisson) * exact.yield)) / c - 1.0, 0.0,
+                    0.0};
   for (int i = 0; i < through; ++i) {  // at the cells' centres
     const double r = exact.a + (exact.b - exact.a) * (i + 0.5) / through;
     const double angle = std::numbers::pi / (8.0 * through);  // half a cell's
@@ -163,8 +164,9 @@ materials::Solid ring_metal() {
 
 RingResult ring_of_elements(ElementKind kind, int around) {
   Settings settings;
-  settings.mesh = TubeMesh{2, Vec3::Zero(), mean_radius - 0.5 * wall, mean_radius + 0.5 * wall, 0.0, wall,
-                           kind == ElementKind::shell ? 1 : 2, around, 1};
+  settings.mesh = TubeMesh{2,   Vec3::Zero(), mean_radius - 0.5 * wall,           mean_radius + 0.5 * wall,
+                           0.0, wall,         kind == ElementKind::shell ? 1 : 2, around,
+                           1};
   settings.element = kind;
   settings.material = ring_metal();
   settings.symmetry_axes = {0, 1};
@@ -176,7 +178,8 @@ RingResult ring_of_elements(ElementKind kind, int around) {
   }
   settings.loads = {pulse};
   Structure ring(settings);
-  const auto outer = ring.locate(Vec3(mean_radius + 0.5 * wall, 0, 0.5 * wall)), middle = ring.locate(Vec3(mean_radius, 0, 0.5 * wall));
+  const auto outer = ring.locate(Vec3(mean_radius + 0.5 * wall, 0, 0.5 * wall)),
+             middle = ring.locate(Vec3(mean_radius, 0, 0.5 * wall));
   RingResult result{0.0, 0.0};
   for (int sample = 1; sample <= 300; ++sample) {
     ring.advance(sample * ring_end / 300, {});

@@ -15,8 +15,7 @@ double first_fall_through_zero(Structure& structure, double t_end, const Value& 
   while (structure.time() < t_end) {
     structure.advance(structure.time() + structure.stable_step(), {});
     const double now = value();
-    if (old_value > 0.0 && now <= 0.0)
-      return old_time + (structure.time() - old_time) * old_value / (old_value - now);
+    if (old_value > 0.0 && now <= 0.0) return old_time + (structure.time() - old_time) * old_value / (old_value - now);
     old_time = structure.time();
     old_value = now;
   }
@@ -122,7 +121,8 @@ TEST(Dynamics, PlasticRingUnderAPulse) {
     while (time < to) {
       const double p = time < 10.0 * decay ? peak * std::exp(-time / decay) : 0.0;
       const double width = std::sqrt(radius / r);  // the section shrinks alike in both directions
-      const double acceleration = p * (r - 0.5 * thickness * width) * width / (density * thickness * radius) - stress / (density * r);
+      const double acceleration =
+          p * (r - 0.5 * thickness * width) * width / (density * thickness * radius) - stress / (density * r);
       v += dt * acceleration;
       r += dt * v;
       const double increment = std::log(r / radius) - strain;

@@ -107,7 +107,9 @@ TEST(Elements, StressTurnsWithTheBody) {
   const Grid grid = distorted_block({2, 2, 2}, 0.15);
   Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.0, 0.0);
   Moved at{grid.nodes, Nodes(grid.nodes.size(), Vec3::Zero())};
-  const auto strained = [](const Vec3& x) { return Vec3(x[0] + 0.02 * x[1] + 0.01 * x[0] * x[2], x[1] * 1.01, x[2] - 0.01 * x[0]); };
+  const auto strained = [](const Vec3& x) {
+    return Vec3(x[0] + 0.02 * x[1] + 0.01 * x[0] * x[2], x[1] * 1.01, x[2] - 0.01 * x[0]);
+  };
   move(elements, grid, at, strained);
   std::vector<Mat3> before;
   for (int q = 0; q < 8; ++q) before.push_back(elements.stress(3, q));
@@ -226,8 +228,7 @@ TEST(Elements, StableStepFollowsTheStrainedCells) {
 
 /// Largest velocity after central differences of a free bar, started with noise of size 1.
 double shaken_bar(double share_of_limit) {
-  const Grid grid =
-      Mesher(plate(Vec3(0, 0, 0), Vec3(4, 4, 40), {1, 1, 40}, elastic(1.0, 1.0, 0.0))).grid();
+  const Grid grid = Mesher(plate(Vec3(0, 0, 0), Vec3(4, 4, 40), {1, 1, 40}, elastic(1.0, 1.0, 0.0))).grid();
   Elements elements(grid, elastic(1.0, 1.0, 0.0), 0.0, 0.0);
   const double dt = share_of_limit * elements.critical_step();
   Nodes x = grid.nodes, v(x.size()), u(x.size()), force(x.size(), Vec3::Zero());

@@ -194,11 +194,12 @@ std::string two_cubes(const std::string& name, bool tetrahedron = false) {
   std::ofstream file(path);
   file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n12\n";
   for (int i = 0; i < 3; ++i)
-    file << 4 * i + 1 << " " << i << " 0 0\n" << 4 * i + 2 << " " << i << " 1 0\n"
-         << 4 * i + 3 << " " << i << " 1 1\n" << 4 * i + 4 << " " << i << " 0 1\n";
+    file << 4 * i + 1 << " " << i << " 0 0\n"
+         << 4 * i + 2 << " " << i << " 1 0\n"
+         << 4 * i + 3 << " " << i << " 1 1\n"
+         << 4 * i + 4 << " " << i << " 0 1\n";
   file << "$EndNodes\n$Elements\n";
-  if (tetrahedron)
-    file << "1\n1 4 2 1 1 1 5 2 4\n";
+  if (tetrahedron) file << "1\n1 4 2 1 1 1 5 2 4\n";
   else
     file << "4\n1 3 2 7 7 1 2 3 4\n2 3 2 8 8 9 10 11 12\n"
          << "3 5 2 1 1 1 5 6 2 4 8 7 3\n4 5 2 1 1 5 9 10 6 8 12 11 7\n";

@@ -166,7 +166,9 @@ TEST(ShellElements, StressTurnsWithTheBody) {
   distort(grid, 0.03);
   auto elements = shells(grid, elastic(1.0, 1.0, 0.3), 2);
   Nodes x = grid.nodes, force(x.size());
-  const auto strained = [](const Vec3& r) { return Vec3(r[0] + 0.02 * r[1] + 0.01 * r[0] * r[2], r[1] * 1.01, r[2] - 0.01 * r[0] * r[0]); };
+  const auto strained = [](const Vec3& r) {
+    return Vec3(r[0] + 0.02 * r[1] + 0.01 * r[0] * r[2], r[1] * 1.01, r[2] - 0.01 * r[0] * r[0]);
+  };
   move(elements, grid, x, force, strained);
   const Nodes before = force;
   const double energy = elements.elastic_energy();
@@ -279,13 +281,11 @@ TEST(ShellElements, FreeSheetKeepsBothMomentaAndEnergy) {
     Structure body(settings);
     const double start = body.energies().balance();
     double time = 0.0;
-    for (int window = 1; window <= 20; ++window)
-      body.advance(time += 0.4e-6, kicks(body.wet_surface().nodes.size(), 3e-4));
+    for (int window = 1; window <= 20; ++window) body.advance(time += 0.4e-6, kicks(body.wet_surface().nodes.size(), 3e-4));
     const Vec3 linear = body.momentum(), angular = body.angular_momentum();
     while (body.steps() < 600) body.advance(body.time() + body.stable_step(), {});
     const Energies energies = body.energies();
-    RecordProperty(viscous ? "balance_viscous" : "balance",
-                   std::to_string((energies.balance() - start) / energies.external));
+    RecordProperty(viscous ? "balance_viscous" : "balance", std::to_string((energies.balance() - start) / energies.external));
     EXPECT_GT(energies.plastic, 0.05 * energies.external);
     EXPECT_EQ(energies.viscous > 0.0, viscous);
     EXPECT_LT((body.momentum() - linear).norm(), 1e-12 * linear.norm());

@@ -99,10 +99,13 @@ Vec3 mean_at(const std::vector<Vec3>& displacement, const std::vector<Vec3>& uni
 double pinched_cylinder(ElementKind kind, int n) {
   const double radius = 300, half_length = 300, t = 3;
   std::vector<Vec3> unit;
-  Plate problem = mapped({n, n}, [&](const Vec3& s) {
-    const double angle = 0.5 * std::numbers::pi * s[0], r = radius + t * (s[2] - 0.5);
-    return Vec3(r * std::sin(angle), half_length * s[1], r * std::cos(angle));
-  }, unit);
+  Plate problem = mapped(
+      {n, n},
+      [&](const Vec3& s) {
+        const double angle = 0.5 * std::numbers::pi * s[0], r = radius + t * (s[2] - 0.5);
+        return Vec3(r * std::sin(angle), half_length * s[1], r * std::cos(angle));
+      },
+      unit);
   problem.material = elastic(1.0, 3e6, 0.3);
   problem.fixed = [](const Vec3& s) {  // load at angle 0, y = 0 (mid-length); diaphragm at y = half_length
     const bool diaphragm = s[1] == 1.0;
@@ -118,10 +121,13 @@ double pinched_cylinder(ElementKind kind, int n) {
 double scordelis_lo(ElementKind kind, int n) {
   const double radius = 25, half_length = 25, t = 0.25, opening = 40.0 / 180.0 * std::numbers::pi;
   std::vector<Vec3> unit;
-  Plate problem = mapped({n, n}, [&](const Vec3& s) {
-    const double angle = opening * s[0], r = radius + t * (s[2] - 0.5);
-    return Vec3(r * std::sin(angle), half_length * s[1], r * std::cos(angle));
-  }, unit);
+  Plate problem = mapped(
+      {n, n},
+      [&](const Vec3& s) {
+        const double angle = opening * s[0], r = radius + t * (s[2] - 0.5);
+        return Vec3(r * std::sin(angle), half_length * s[1], r * std::cos(angle));
+      },
+      unit);
   problem.material = elastic(1.0, 4.32e8, 0.0);
   problem.fixed = [](const Vec3& s) {
     const bool diaphragm = s[1] == 1.0;
@@ -136,10 +142,13 @@ double scordelis_lo(ElementKind kind, int n) {
 double clamped_plate(ElementKind kind, int n, double slenderness, double poisson, double skew = 0.0) {
   const double a = 1.0, t = a / slenderness, young = 1e7;
   std::vector<Vec3> unit;
-  Plate problem = mapped({n, n}, [&](const Vec3& s) {
-    const double bump = skew * std::sin(std::numbers::pi * s[0]) * std::sin(std::numbers::pi * s[1]);
-    return Vec3(0.5 * a * (s[0] + bump), 0.5 * a * (s[1] - bump), t * s[2]);
-  }, unit);
+  Plate problem = mapped(
+      {n, n},
+      [&](const Vec3& s) {
+        const double bump = skew * std::sin(std::numbers::pi * s[0]) * std::sin(std::numbers::pi * s[1]);
+        return Vec3(0.5 * a * (s[0] + bump), 0.5 * a * (s[1] - bump), t * s[2]);
+      },
+      unit);
   problem.material = elastic(1.0, young, poisson);
   problem.fixed = [](const Vec3& s) {  // centre at (0, 0), clamped at s = 1
     const bool clamped = s[0] == 1.0 || s[1] == 1.0;
@@ -155,7 +164,8 @@ double clamped_plate(ElementKind kind, int n, double slenderness, double poisson
 double cantilever(ElementKind kind, int n, double slenderness, double poisson) {
   const double length = 1.0, t = length / slenderness, young = 1e7;
   std::vector<Vec3> unit;
-  Plate problem = mapped({n, 1}, [&](const Vec3& s) { return Vec3(length * s[0], length / n * s[1], t * s[2]); }, unit);
+  Plate problem = mapped(
+      {n, 1}, [&](const Vec3& s) { return Vec3(length * s[0], length / n * s[1], t * s[2]); }, unit);
   problem.material = elastic(1.0, young, poisson);
   problem.fixed = [](const Vec3& s) {
     const bool clamped = s[0] == 0.0;
@@ -173,8 +183,9 @@ std::array<double, 3> series(const char* name, ElementKind kind, const Case& one
   std::array<double, 3> values;
   for (int k = 0; k < 3; ++k) {
     values[k] = one(kind, 8 << k);
-    ::testing::Test::RecordProperty(std::string(name) + (kind == ElementKind::shell ? "_shell_" : "_hexahedron_") + std::to_string(8 << k),
-                                    std::to_string(values[k]));
+    ::testing::Test::RecordProperty(
+        std::string(name) + (kind == ElementKind::shell ? "_shell_" : "_hexahedron_") + std::to_string(8 << k),
+        std::to_string(values[k]));
   }
   std::printf("%-28s %-10s 8x8: %.5f  16x16: %.5f  32x32: %.5f  order %.2f\n", name,
               kind == ElementKind::shell ? "shell" : "hexahedron", values[0], values[1], values[2],

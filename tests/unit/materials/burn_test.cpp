@@ -31,8 +31,7 @@ TEST(Jwl, PressureByHand) {
   EXPECT_NEAR(thin.pressure, 0.25 * 17.7 * 1e6, 1e-6 * thin.pressure);
   EXPECT_NEAR(thin.sound_speed, std::sqrt(1.25 * 0.25 * 1e6), 1e-6 * thin.sound_speed);
   // Energy enters as omega rho e.
-  EXPECT_NEAR(law.evaluate(2000.0, 2e6).pressure - law.evaluate(2000.0, 1e6).pressure, 0.25 * 2000.0 * 1e6,
-              1.0);
+  EXPECT_NEAR(law.evaluate(2000.0, 2e6).pressure - law.evaluate(2000.0, 1e6).pressure, 0.25 * 2000.0 * 1e6, 1.0);
 }
 
 TEST(Jwl, SoundSpeedIsTheIsentropicSlope) {
@@ -67,15 +66,7 @@ TEST(Jwl, DensityInvertsPressure) {
     }
   EXPECT_THROW(law.density_at(-1.0, 5.7e6), std::domain_error);
   EXPECT_THROW(law.density_at(1e13, 5.7e6), std::domain_error);
-  EXPECT_THROW(Jwl({.rho0 = 1770.0,
-                    .A = 1e9,
-                    .B = 1e9,
-                    .R1 = 0.0,
-                    .R2 = 1.0,
-                    .omega = 0.3,
-                    .E0 = 1e6,
-                    .D = 8e3,
-                    .p_cj = 1e9}),
+  EXPECT_THROW(Jwl({.rho0 = 1770.0, .A = 1e9, .B = 1e9, .R1 = 0.0, .R2 = 1.0, .omega = 0.3, .E0 = 1e6, .D = 8e3, .p_cj = 1e9}),
                std::invalid_argument);
 }
 
@@ -104,15 +95,7 @@ TEST(ChapmanJouguet, PetnSatisfiesTheJumpConditions) {
 TEST(ChapmanJouguet, IdealGasLimitIsExact) {
   // Without the exponentials, gamma = 1 + omega: D^2 = 2 (gamma^2 - 1) E0, p = 2 (gamma - 1) rho0 E0,
   // rho/rho0 = (gamma + 1)/gamma.
-  const Jwl law({.rho0 = 1000.0,
-                 .A = 0.0,
-                 .B = 0.0,
-                 .R1 = 4.0,
-                 .R2 = 1.0,
-                 .omega = 0.4,
-                 .E0 = 4e6,
-                 .D = 3000.0,
-                 .p_cj = 1e9});
+  const Jwl law({.rho0 = 1000.0, .A = 0.0, .B = 0.0, .R1 = 4.0, .R2 = 1.0, .omega = 0.4, .E0 = 4e6, .D = 3000.0, .p_cj = 1e9});
   const ChapmanJouguet s = chapman_jouguet(law);
   EXPECT_NEAR(s.detonation_speed, std::sqrt(2.0 * (1.4 * 1.4 - 1.0) * 4e6), 1e-6);
   EXPECT_NEAR(s.pressure, 2.0 * 0.4 * 1000.0 * 4e6, 10.0);

@@ -26,8 +26,8 @@ constexpr JohnsonCook al5083{.A = 167e6, .B = 596e6, .n = 0.551, .C = 0.001, .m 
 constexpr JohnsonCook iron{.A = 175e6, .B = 380e6, .n = 0.32, .C = 0.06, .m = 0.55, .T_melt = 1811.0};
 
 /// Increment of plastic strain by bisection in long double, flow stress written out from eqs 16 and 17.
-long double bisected(const JohnsonCook& law, long double G, long double trial, long double strain,
-                     long double T, long double dt) {
+long double bisected(const JohnsonCook& law, long double G, long double trial, long double strain, long double T,
+                     long double dt) {
   long double homologous = (T - law.T_room) / (static_cast<long double>(law.T_melt) - law.T_room);
   homologous = std::fmin(std::fmax(homologous, 0.0L), 1.0L);
   const auto excess = [&](long double d) {
@@ -57,8 +57,7 @@ TEST(FlowStress, JohnsonCookByHand) {
   EXPECT_NEAR(flow_stress(linear, 1.0, 1.0, 593.0), 763e6 * 0.5, 1e-3);
   // Armco iron at strain 0.3, 1e4 1/s, 600 K: 0.3^0.32 = 0.6802661, ln 1e4 = 9.210340, T* = 0.202240,
   // T*^0.55 = 0.4151706.
-  EXPECT_NEAR(flow_stress(iron, 0.3, 1e4, 600.0),
-              (175e6 + 380e6 * 0.6802661) * (1 + 0.06 * 9.210340) * (1 - 0.4151706), 3e3);
+  EXPECT_NEAR(flow_stress(iron, 0.3, 1e4, 600.0), (175e6 + 380e6 * 0.6802661) * (1 + 0.06 * 9.210340) * (1 - 0.4151706), 3e3);
 }
 
 TEST(FlowStress, RateAndTemperatureAreClamped) {
@@ -82,8 +81,7 @@ TEST(FlowStress, HardeningIsTheSlope) {
   for (const JohnsonCook& law : {al5083, iron})
     for (const double strain : {1e-3, 0.05, 0.7}) {
       const double h = 1e-5 * strain;
-      const double slope =
-          (flow_stress(law, strain + h, 1e3, 500.0) - flow_stress(law, strain - h, 1e3, 500.0)) / (2.0 * h);
+      const double slope = (flow_stress(law, strain + h, 1e3, 500.0) - flow_stress(law, strain - h, 1e3, 500.0)) / (2.0 * h);
       EXPECT_NEAR(hardening(FlowStress{law}, strain, 1e3, 500.0), slope, 1e-7 * slope);
     }
   const double at_zero = hardening(FlowStress{iron}, 0.0, 1.0, 293.0);
@@ -117,8 +115,7 @@ TEST(RadialReturn, LinearHardeningClosedForm) {
         continue;
       }
       EXPECT_NEAR(step.plastic_strain, (trial - start) / (3 * 26.7e9 + H), 1e-15);
-      EXPECT_NEAR(trial - 3 * 26.7e9 * step.plastic_strain, 300e6 + H * (strain + step.plastic_strain),
-                  1e-14 * trial);
+      EXPECT_NEAR(trial - 3 * 26.7e9 * step.plastic_strain, 300e6 + H * (strain + step.plastic_strain), 1e-14 * trial);
       EXPECT_NEAR(step.scale * trial, 300e6 + H * (strain + step.plastic_strain), 1e-14 * trial);
       EXPECT_NEAR(step.work, step.scale * trial * step.plastic_strain, 1e-12 * step.work);
     }
@@ -231,12 +228,9 @@ TEST(TensileTest, CurvePassesThroughTheNeckingPointAndNecksThere) {
 }
 
 TEST(TensileTest, RefusesImpossibleTests) {
-  EXPECT_THROW(hardening_from({.yield = 300e6, .ultimate = 262e6, .uniform_elongation = 0.1}),
-               std::invalid_argument);
-  EXPECT_THROW(hardening_from({.yield = 0.0, .ultimate = 262e6, .uniform_elongation = 0.1}),
-               std::invalid_argument);
-  EXPECT_THROW(hardening_from({.yield = 100e6, .ultimate = 262e6, .uniform_elongation = 0.0}),
-               std::invalid_argument);
+  EXPECT_THROW(hardening_from({.yield = 300e6, .ultimate = 262e6, .uniform_elongation = 0.1}), std::invalid_argument);
+  EXPECT_THROW(hardening_from({.yield = 0.0, .ultimate = 262e6, .uniform_elongation = 0.1}), std::invalid_argument);
+  EXPECT_THROW(hardening_from({.yield = 100e6, .ultimate = 262e6, .uniform_elongation = 0.0}), std::invalid_argument);
 }
 
 }  // namespace

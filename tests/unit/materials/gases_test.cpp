@@ -31,14 +31,12 @@ TEST(BarotropicGas, SlopeEnergyInverseMonotone) {
     double last = 0.0;
     for (const double rho : {1e-3, 0.02, 0.5, 1.0, 4.0}) {
       const PressureSound s = gas.evaluate(rho, 0.0);
-      EXPECT_NEAR(test::isentropic_slope(gas, rho, 0.0), s.sound_speed * s.sound_speed,
-                  1e-8 * s.sound_speed * s.sound_speed);
+      EXPECT_NEAR(test::isentropic_slope(gas, rho, 0.0), s.sound_speed * s.sound_speed, 1e-8 * s.sound_speed * s.sound_speed);
       EXPECT_NEAR(gas.density_at(s.pressure), rho, 1e-12 * rho);
       EXPECT_GT(s.pressure, last);
       last = s.pressure;
     }
-    EXPECT_NEAR(gas.barotropic_energy(2.0) - gas.barotropic_energy(0.01),
-                test::compression_work(gas, 0.01, 2.0), 1e-10);
+    EXPECT_NEAR(gas.barotropic_energy(2.0) - gas.barotropic_energy(0.01), test::compression_work(gas, 0.01, 2.0), 1e-10);
     EXPECT_LT(gas.barotropic_energy(1e-20), 1e-7);  // zero at infinite expansion
     EXPECT_GT(gas.evaluate(1e-30, 0.0).sound_speed, 0.0);
   }

@@ -64,8 +64,7 @@ TEST(MieGruneisenWater, ReturnsItsHugoniot) {
 TEST(MieGruneisenWater, EnergyEntersPerInitialVolume) {
   const MieGruneisenWater law = steinberg();
   const double mu = 0.2, e = 1e5;
-  EXPECT_NEAR(law.evaluate(1200.0, e).pressure - law.evaluate(1200.0, 0.0).pressure,
-              (0.5 + 2.67 * mu) * 1000.0 * e, 1e-3);
+  EXPECT_NEAR(law.evaluate(1200.0, e).pressure - law.evaluate(1200.0, 0.0).pressure, (0.5 + 2.67 * mu) * 1000.0 * e, 1e-3);
 }
 
 TEST(MieGruneisenWater, SmoothAtRestDensity) {
@@ -76,8 +75,7 @@ TEST(MieGruneisenWater, SmoothAtRestDensity) {
       EXPECT_NEAR(law.evaluate(1000.0 * (1 + step), e).pressure, p, 1e10 * step + 1e-6);
       EXPECT_NEAR(law.evaluate(1000.0 * (1 - step), e).pressure, p, 1e10 * step + 1e-6);
     }
-    EXPECT_NEAR(law.evaluate(1000.0 * (1 + 1e-9), e).sound_speed,
-                law.evaluate(1000.0 * (1 - 1e-9), e).sound_speed, 1e-4);
+    EXPECT_NEAR(law.evaluate(1000.0 * (1 + 1e-9), e).sound_speed, law.evaluate(1000.0 * (1 - 1e-9), e).sound_speed, 1e-4);
   }
 }
 
@@ -107,8 +105,7 @@ TEST(MieGruneisenWater, CutoffIsContinuousAtEveryEnergy) {
     EXPECT_EQ(law.evaluate(cut * (1 - 1e-9), e).pressure, 2000.0) << e;
     EXPECT_EQ(law.evaluate(0.5 * cut, e).pressure, 2000.0) << e;
     // Sound speed below is that of the liquid at the cut-off.
-    EXPECT_NEAR(law.evaluate(0.5 * cut, e).sound_speed, law.evaluate(cut * (1 + 1e-9), e).sound_speed, 0.02)
-        << e;
+    EXPECT_NEAR(law.evaluate(0.5 * cut, e).sound_speed, law.evaluate(cut * (1 + 1e-9), e).sound_speed, 0.02) << e;
     EXPECT_EQ(law.void_fraction(cut, e), 0.0);
     EXPECT_NEAR(law.void_fraction(0.25 * cut, e), 0.75, 1e-12);
   }
@@ -136,8 +133,7 @@ TEST(MieGruneisenWater, PrintedSetIsContinuedBeforeItsPole) {
   EXPECT_GT(law.limit(), 0.38);
   EXPECT_LT(law.limit(), 0.44);  // the pole
   const double rho = 1000.0 * (1 + law.limit());
-  const PressureSound below = law.evaluate(rho * (1 - 1e-10), 1e5),
-                      above = law.evaluate(rho * (1 + 1e-10), 1e5);
+  const PressureSound below = law.evaluate(rho * (1 - 1e-10), 1e5), above = law.evaluate(rho * (1 + 1e-10), 1e5);
   EXPECT_NEAR(below.pressure, above.pressure, 1e-7 * above.pressure);
   EXPECT_NEAR(below.sound_speed, above.sound_speed, 1e-6 * above.sound_speed);
   double last = 0.0;
@@ -153,8 +149,7 @@ TEST(MieGruneisenWater, PrintedSetIsContinuedBeforeItsPole) {
 TEST(MieGruneisenWater, SoundSpeedIsGuardedInColdOvercompression) {
   const MieGruneisenWater law = steinberg();
   for (double rho = 1e-3; rho < 5000.0; rho *= 1.01)
-    for (const double e : {-1e6, 0.0, 1e7})
-      EXPECT_GE(law.evaluate(rho, e).sound_speed, 148.0) << rho << " " << e;
+    for (const double e : {-1e6, 0.0, 1e7}) EXPECT_GE(law.evaluate(rho, e).sound_speed, 148.0) << rho << " " << e;
 }
 
 TEST(MieGruneisenWater, DensityInvertsPressure) {
@@ -166,9 +161,7 @@ TEST(MieGruneisenWater, DensityInvertsPressure) {
         EXPECT_GT(law.evaluate(rho * (1 + 1e-6), e).pressure, p);
       }
   EXPECT_EQ(steinberg().density_at(1e-5, 1e5), steinberg().cutoff_density(1e5));
-  EXPECT_NEAR(
-      steinberg(Cavitation::none).evaluate(steinberg(Cavitation::none).density_at(-1e8, 0.0), 0.0).pressure,
-      -1e8, 1e-2);
+  EXPECT_NEAR(steinberg(Cavitation::none).evaluate(steinberg(Cavitation::none).density_at(-1e8, 0.0), 0.0).pressure, -1e8, 1e-2);
 }
 
 TEST(MieGruneisenWater, UnreachablePressuresThrow) {

@@ -28,8 +28,7 @@ TEST(MieGruneisenPressure, RestStateAndHand) {
   EXPECT_NEAR(evaluate(aluminium, rho0, 1.1 * rho0, 0.0).pressure, 0.915 * 76.1239e9 * 0.12175, 1e4);
   // Tension is linear in p_H: eta = -0.1.
   EXPECT_NEAR(evaluate(aluminium, rho0, 0.9 * rho0, 0.0).pressure, -1.085 * 76.1239e9 * 0.1, 1e5);
-  EXPECT_NEAR(evaluate(aluminium, rho0, 1.1 * rho0, 1e6).pressure -
-                  evaluate(aluminium, rho0, 1.1 * rho0, 0.0).pressure,
+  EXPECT_NEAR(evaluate(aluminium, rho0, 1.1 * rho0, 1e6).pressure - evaluate(aluminium, rho0, 1.1 * rho0, 0.0).pressure,
               1.7 * 1.1 * rho0 * 1e6, 1.0);
 }
 
@@ -72,8 +71,7 @@ TEST(MieGruneisenPressure, ContinuousAtRestDensityAndGuarded) {
 }
 
 TEST(SolidPressure, VariantAsksTheLaw) {
-  EXPECT_EQ(evaluate(SolidPressure{aluminium}, rho0, 3000.0, 1e5).pressure,
-            evaluate(aluminium, rho0, 3000.0, 1e5).pressure);
+  EXPECT_EQ(evaluate(SolidPressure{aluminium}, rho0, 3000.0, 1e5).pressure, evaluate(aluminium, rho0, 3000.0, 1e5).pressure);
   EXPECT_EQ(evaluate(SolidPressure{LinearPressure{70e9}}, rho0, 3000.0, 1e5).pressure,
             evaluate(LinearPressure{70e9}, rho0, 3000.0, 1e5).pressure);
 }

@@ -34,8 +34,8 @@ Solid metal(FlowStress flow, double heat_share = 0.9) {
 struct Metal {
   const char* name;
   FlowStress flow;
-  double least_rate;   ///< below it the stress does not depend on the rate; infinite: nowhere
-  double melting;      ///< highest temperature of the tests [K]
+  double least_rate;  ///< below it the stress does not depend on the rate; infinite: nowhere
+  double melting;     ///< highest temperature of the tests [K]
   double (*still)(double strain, double T);
   double (*rate)(double stress, double strain, double T);
 };
@@ -59,8 +59,8 @@ const Metal metals[] = {
     {"Cowper-Symonds", CowperSymonds{.Y0 = 250e6, .H = 800e6, .D = 40.0, .q = 5.0}, 0.0, 1500.0,
      [](double e, double) { return 250e6 + 800e6 * e; },
      [](double s, double e, double) { return 40.0 * std::pow(std::max(s / (250e6 + 800e6 * e) - 1.0, 0.0), 5.0); }},
-    {"Zerilli-Armstrong bcc",
-     ZerilliArmstrong{.C0 = 65e6, .C1 = 1033e6, .C3 = 0.00698, .C4 = 0.000415, .C5 = 266e6, .n = 0.289}, 1e-3, 1700.0,
+    {"Zerilli-Armstrong bcc", ZerilliArmstrong{.C0 = 65e6, .C1 = 1033e6, .C3 = 0.00698, .C4 = 0.000415, .C5 = 266e6, .n = 0.289},
+     1e-3, 1700.0,
      [](double e, double T) {
        return 65e6 + 266e6 * std::pow(e, 0.289) + 1033e6 * std::exp(-0.00698 * T + 0.000415 * T * std::log(1e-3));
      },
@@ -133,8 +133,7 @@ double mises(const SolidPoints& p, int q = 0) {
 }
 
 class StressPath : public ::testing::TestWithParam<Metal> {};
-INSTANTIATE_TEST_SUITE_P(All, StressPath, ::testing::ValuesIn(metals),
-                         [](const ::testing::TestParamInfo<Metal>& each) {
+INSTANTIATE_TEST_SUITE_P(All, StressPath, ::testing::ValuesIn(metals), [](const ::testing::TestParamInfo<Metal>& each) {
   std::string name = each.param.name;
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return name;
@@ -153,8 +152,8 @@ TEST_P(StressPath, ConvergesToTheRateEquationsInTheFirstOrder) {
                std::abs(p.temperature[0] / exact.temperature - 1.0);
       };
       const double coarse = error(200), middle = error(400), fine = error(800);
-      const std::string where = std::string(of.name) + ", T " + std::to_string(T) + " K, rate " + std::to_string(rate) + " 1/s: " +
-                                std::to_string(coarse) + " " + std::to_string(middle) + " " + std::to_string(fine);
+      const std::string where = std::string(of.name) + ", T " + std::to_string(T) + " K, rate " + std::to_string(rate) +
+                                " 1/s: " + std::to_string(coarse) + " " + std::to_string(middle) + " " + std::to_string(fine);
       EXPECT_LT(fine, 2e-3) << where;
       if (fine < 1e-7) continue;  // exact but for round-off and the reference's tolerance
       EXPECT_GT(std::log2(coarse / middle), 0.85) << where;

@@ -30,8 +30,7 @@ TEST(TaitWater, ReferenceState) {
 
 TEST(TaitWater, CompressedPressureByHand) {
   // mu = 0.1: 3.31e8 (1.1^7.15 - 1) + 1e5, with 1.1^7 = 1.9487171 and 1.1^0.15 = 1.01439921.
-  EXPECT_NEAR(water(Cavitation::schmidt).evaluate(1100.0, 0.0).pressure,
-              3.31e8 * (1.9487171 * 1.01439921 - 1.0) + 1e5, 1e2);
+  EXPECT_NEAR(water(Cavitation::schmidt).evaluate(1100.0, 0.0).pressure, 3.31e8 * (1.9487171 * 1.01439921 - 1.0) + 1e5, 1e2);
   EXPECT_NEAR(water(Cavitation::schmidt).evaluate(1100.0, 0.0).pressure, 323e6, 1e6);
 }
 
@@ -97,9 +96,7 @@ TEST(TaitWater, MixturePressureIsTheIntegralOfItsSoundSpeed) {
     sum += (i == 0 || i == intervals ? 1.0 : (i % 2 ? 4.0 : 2.0)) * sound_squared(from + i * h);
   EXPECT_NEAR(sum * h / 3.0, 3165.0, 1e-3);
   for (const double rho : {rho_l * 0.99999, 999.8, 999.0, 500.0, 1.0, 0.0101}) {
-    EXPECT_NEAR(law.evaluate(rho, 0.0).sound_speed, std::sqrt(sound_squared(rho)),
-                1e-6 * std::sqrt(sound_squared(rho)))
-        << rho;
+    EXPECT_NEAR(law.evaluate(rho, 0.0).sound_speed, std::sqrt(sound_squared(rho)), 1e-6 * std::sqrt(sound_squared(rho))) << rho;
   }
 }
 
@@ -180,16 +177,14 @@ TEST(TaitWater, PressureNeverFallsAndSoundIsPositive) {
 TEST(TaitWater, CompressionEnergyIsTheIntegralOfPressure) {
   for (const Cavitation cavitation : {Cavitation::none, Cavitation::cutoff, Cavitation::schmidt, Cavitation::isentropic}) {
     const TaitWater law = water(cavitation);
-    EXPECT_NEAR(law.barotropic_energy(1400.0), test::compression_work(law, 1000.0, 1400.0),
-                1e-9 * law.barotropic_energy(1400.0));
+    EXPECT_NEAR(law.barotropic_energy(1400.0), test::compression_work(law, 1000.0, 1400.0), 1e-9 * law.barotropic_energy(1400.0));
   }
   // Through the mixture, from its limit to its floor, and on along the floor: pieces of smooth integrand
   // each.
   const TaitWater law = water(Cavitation::schmidt);
   const double limit = law.liquid_limit(), floor = law.floor_density();
   const double mixture_work = law.barotropic_energy(limit) - law.barotropic_energy(floor);
-  EXPECT_NEAR(mixture_work, test::compression_work(law, floor * (1 + 1e-13), limit * (1 - 1e-13)),
-              1e-6 * mixture_work);
+  EXPECT_NEAR(mixture_work, test::compression_work(law, floor * (1 + 1e-13), limit * (1 - 1e-13)), 1e-6 * mixture_work);
   EXPECT_GT(mixture_work, 0.0);
   EXPECT_NEAR(law.barotropic_energy(floor) - law.barotropic_energy(0.1), 1e-5 * (1 / 0.1 - 1 / floor), 1e-10);
   const double liquid_work = law.barotropic_energy(1000.0) - law.barotropic_energy(limit);
@@ -202,8 +197,7 @@ TEST(TaitWater, FloorEnergyWithALargeFloorPressure) {
   for (const Cavitation cavitation : {Cavitation::cutoff, Cavitation::schmidt}) {
     p.cavitation = cavitation;
     const TaitWater law(p);
-    EXPECT_NEAR(law.barotropic_energy(500.0) - law.barotropic_energy(250.0), 3000.0 * (1 / 250.0 - 1 / 500.0),
-                1e-9);
+    EXPECT_NEAR(law.barotropic_energy(500.0) - law.barotropic_energy(250.0), 3000.0 * (1 / 250.0 - 1 / 500.0), 1e-9);
     const double floor = law.floor_density();
     EXPECT_NEAR(law.barotropic_energy(floor * (1 + 1e-12)), law.barotropic_energy(floor * (1 - 1e-12)), 1e-9);
   }
@@ -217,8 +211,7 @@ TEST(TaitWater, DensityInvertsPressure) {
     for (const double pressure : {1.0, 500.0, 3164.999, 3165.0, 3165.001, 1e5, 1e9})
       EXPECT_NEAR(law.evaluate(law.density_at(pressure), 0.0).pressure, pressure, 1e-6 + 1e-12 * pressure);
   }
-  EXPECT_NEAR(water(Cavitation::none).evaluate(water(Cavitation::none).density_at(-1e8), 0.0).pressure, -1e8,
-              1e-3);
+  EXPECT_NEAR(water(Cavitation::none).evaluate(water(Cavitation::none).density_at(-1e8), 0.0).pressure, -1e8, 1e-3);
 }
 
 TEST(TaitWater, DensityAtTheFloorIsTheLargest) {
@@ -231,8 +224,7 @@ TEST(TaitWater, UnreachablePressuresThrow) {
   EXPECT_THROW(water(Cavitation::schmidt).density_at(0.0), std::domain_error);
   EXPECT_THROW(water(Cavitation::cutoff).density_at(-1.0), std::domain_error);
   EXPECT_THROW(water(Cavitation::none).density_at(1e5 - 3.31e8), std::domain_error);
-  EXPECT_THROW(water(Cavitation::none).density_at(std::numeric_limits<double>::quiet_NaN()),
-               std::domain_error);
+  EXPECT_THROW(water(Cavitation::none).density_at(std::numeric_limits<double>::quiet_NaN()), std::domain_error);
 }
 
 TEST(TaitWater, RefusesImpossibleParameters) {

@@ -48,9 +48,7 @@ TEST(RigidCylinderMetrics, CoarserReferenceGridDiffersLittle) {
 }
 
 // Triangles: 0 to 400 MPa over 10..20 us, back to 0 at 40 us; 0 until 95; up to 300 MPa at 97, down to 0 at 107 us.
-Series triangles() {
-  return {{0, 10e-6, 20e-6, 40e-6, 95e-6, 97e-6, 107e-6, 125e-6}, {0, 0, 400e6, 0, 0, 300e6, 0, 0}};
-}
+Series triangles() { return {{0, 10e-6, 20e-6, 40e-6, 95e-6, 97e-6, 107e-6, 125e-6}, {0, 0, 400e6, 0, 0, 300e6, 0, 0}}; }
 
 TEST(RigidCylinderMetrics, TrianglesGiveTheirExactAnswers) {
   const NamedNumbers metrics = rigid_cylinder_metrics(triangles());
@@ -87,15 +85,13 @@ TEST(RigidCylinderMetrics, ShortRunsTellOnlyWhatTheySaw) {
   series.append(35e-6, 100e6);
   const NamedNumbers metrics = rigid_cylinder_metrics(series);
   EXPECT_DOUBLE_EQ(get(metrics, "first_peak_pa"), 400e6);
-  for (const char* name : {"impulse_0_45us_pa_s", "cavitation_s", "collapse_s", "second_peak_time_s",
-                           "second_peak_5us_pa", "impulse_85_112us_pa_s", "second_cavitation_s"})
+  for (const char* name : {"impulse_0_45us_pa_s", "cavitation_s", "collapse_s", "second_peak_time_s", "second_peak_5us_pa",
+                           "impulse_85_112us_pa_s", "second_cavitation_s"})
     EXPECT_TRUE(std::isnan(get(metrics, name))) << name;
   EXPECT_TRUE(std::isnan(get(rigid_cylinder_metrics(series, reference_pressure()), "l1_0_95us")));
 }
 
-TEST(RigidCylinderMetrics, BadSeriesIsOurDefect) {
-  EXPECT_THROW(rigid_cylinder_metrics({{0, 1}, {0}}), std::invalid_argument);
-}
+TEST(RigidCylinderMetrics, BadSeriesIsOurDefect) { EXPECT_THROW(rigid_cylinder_metrics({{0, 1}, {0}}), std::invalid_argument); }
 
 // A wall that accelerates at 1e7 m/s^2 over 16..26 us, then slows to 20 m/s at 90 us, is kicked to 40 m/s at 100 us.
 TubeHistories tube() {
@@ -155,7 +151,8 @@ TEST(TaylorBarMetrics, ShapeOfACloudOfPoints) {
     for (int ring = 0; ring <= 4; ++ring)
       for (int turn = 0; turn < 16; ++turn) {
         const double height = 0.5 * layer, radius = 0.25 * ring * std::max(2.0, 5.0 - height);
-        points.emplace_back(2.0 + height, 1.0 + radius * std::cos(0.125 * M_PI * turn), -1.0 + radius * std::sin(0.125 * M_PI * turn));
+        points.emplace_back(2.0 + height, 1.0 + radius * std::cos(0.125 * M_PI * turn),
+                            -1.0 + radius * std::sin(0.125 * M_PI * turn));
       }
   const auto value = [&](const std::vector<Vec3>& cloud, double initial, const char* name, double skin = 0.0) {
     for (const auto& [key, number] : taylor_bar_metrics(cloud, 0, Vec3(0, 1, -1), initial, skin))

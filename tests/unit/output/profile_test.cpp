@@ -102,7 +102,8 @@ TEST(Profile, MeanTakesItsIntervalAlone) {
   const ProfileMean mean = profile_mean(profile, 0.3, 0.7);
   EXPECT_DOUBLE_EQ(mean.run.pressure, 4);
   EXPECT_DOUBLE_EQ(mean.exact.pressure, 3);
-  EXPECT_DOUBLE_EQ(largest_pressure_error(profile, [](const ProfilePoint& p) { return p.coordinate < 0.7 && p.coordinate > 0.3; }), 2);
+  EXPECT_DOUBLE_EQ(
+      largest_pressure_error(profile, [](const ProfilePoint& p) { return p.coordinate < 0.7 && p.coordinate > 0.3; }), 2);
 }
 
 TEST(Profile, FilesHaveUnitsAndEveryPoint) {
@@ -112,8 +113,9 @@ TEST(Profile, FilesHaveUnitsAndEveryPoint) {
   std::ifstream file(folder.path / "profile.csv");
   std::string line;
   std::getline(file, line);
-  EXPECT_EQ(line, "coordinate [m],body [-],volume [m^d],density [kg/m3],velocity [m/s],pressure [Pa],exact_density [kg/m3],"
-                  "exact_velocity [m/s],exact_pressure [Pa]");
+  EXPECT_EQ(line,
+            "coordinate [m],body [-],volume [m^d],density [kg/m3],velocity [m/s],pressure [Pa],exact_density [kg/m3],"
+            "exact_velocity [m/s],exact_pressure [Pa]");
   int rows = 0;
   while (std::getline(file, line)) ++rows;
   EXPECT_EQ(rows, 3);

@@ -7,12 +7,11 @@ namespace {
 
 using Labels = std::vector<std::string>;
 
-Labels labels(const std::vector<RunSettings>& runs) {
-  return run_labels(differing_settings(runs), {"out/a", "out/b", "out/c"});
-}
+Labels labels(const std::vector<RunSettings>& runs) { return run_labels(differing_settings(runs), {"out/a", "out/b", "out/c"}); }
 
 TEST(RunLabels, TheFewestSettingsThatTellRunsApart) {
-  const RunSettings fem{{"name", "tube"}, {"scheme.courant", "0.3"}, {"resolution.spacing", "0.003"}, {"structure.method", "fem"}};
+  const RunSettings fem{
+      {"name", "tube"}, {"scheme.courant", "0.3"}, {"resolution.spacing", "0.003"}, {"structure.method", "fem"}};
   RunSettings sph = fem, fine = fem;
   sph[3].second = "sph";
   fine[2].second = "0.0015";

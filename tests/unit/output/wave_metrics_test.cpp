@@ -47,14 +47,15 @@ TEST(PlateMetrics, TaylorsPressureCavitatesWhenItShould) {
 }
 
 TEST(PlateMetrics, WhatDidNotHappenIsNaN) {
-  for (const PlateHistories& histories :
-       {PlateHistories{{{0, 1e-5}, {0, 2e6}}, {{0, 1e-5}, {0, 1}}}, PlateHistories{{{0, 1e-5}, {0, 1e3}}, {{0, 1e-5}, {0, 1}}}, PlateHistories{}})
+  for (const PlateHistories& histories : {PlateHistories{{{0, 1e-5}, {0, 2e6}}, {{0, 1e-5}, {0, 1}}},
+                                          PlateHistories{{{0, 1e-5}, {0, 1e3}}, {{0, 1e-5}, {0, 1}}}, PlateHistories{}})
     for (const auto& [name, value] : plate_metrics(histories, 1.0, 1e6)) EXPECT_TRUE(std::isnan(value)) << name;
   EXPECT_THROW(plate_metrics({{{0, 1e-5}, {0, std::nan("")}}, {}}, 1.0, 1e6), std::invalid_argument);
 }
 
 TEST(BlastMetrics, TrianglesGiveTheirExactAnswers) {
-  const Series run{{0, 10e-6, 12e-6, 22e-6, 40e-6}, {0, 0, 8e6, 0, 0}}, reference{{0, 10e-6, 11e-6, 21e-6, 40e-6}, {0, 0, 1e7, 0, 0}};
+  const Series run{{0, 10e-6, 12e-6, 22e-6, 40e-6}, {0, 0, 8e6, 0, 0}},
+      reference{{0, 10e-6, 11e-6, 21e-6, 40e-6}, {0, 0, 1e7, 0, 0}};
   const NamedNumbers metrics = blast_metrics(run, reference, "r4", 0, 40e-6);
   EXPECT_DOUBLE_EQ(get(metrics, "peak_r4_pa"), 8e6);
   EXPECT_DOUBLE_EQ(get(metrics, "peak_1d_r4_pa"), 1e7);

@@ -27,7 +27,8 @@ TEST(Documentation, NamesEveryKeyWithItsUnit) {
   for (const Section& section : schema())
     for (const Key& key : section.keys) {
       bool found = false;
-      for (auto at = text.find('`' + key.name + '`'); at != std::string::npos && !found; at = text.find('`' + key.name + '`', at + 1)) {
+      for (auto at = text.find('`' + key.name + '`'); at != std::string::npos && !found;
+           at = text.find('`' + key.name + '`', at + 1)) {
         const auto begin = text.rfind('\n', at) + 1;
         const std::string line = text.substr(begin, text.find('\n', at) - begin);
         found = key.unit.empty() || line.find("| " + key.unit + " |") != std::string::npos;
@@ -73,7 +74,8 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   expect("[solid_scheme]", "beta", solids.beta);
   expect("[solid_scheme]", "artificial_stress", solids.artificial_stress);
   expect("[coupling]", "window", coupling.window);
-  EXPECT_NE(part("[scheme]").find(numerics.scheme == sph::SchemeName::riemann ? "`name` | - | \"riemann\"" : "`name` | - | \"monaghan\""),
+  EXPECT_NE(part("[scheme]")
+                .find(numerics.scheme == sph::SchemeName::riemann ? "`name` | - | \"riemann\"" : "`name` | - | \"monaghan\""),
             std::string::npos);
 }
 

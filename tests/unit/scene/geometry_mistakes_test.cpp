@@ -21,7 +21,8 @@ shape = {type = "box", low = 0, high = 1}
 
 TEST(Geometry, OverlapOfBodies) {
   expect(with(coupled_tube, "subtract = [\"charge\"]\n", ""), "16:9: bodies.water overlaps bodies.charge, e.g. at [");
-  expect(with(two_gases, "low = 0.5, high = 1", "low = 0.499, high = 1"), "15:9: bodies.right overlaps bodies.left, e.g. at [0.499");
+  expect(with(two_gases, "low = 0.5, high = 1", "low = 0.499, high = 1"),
+         "15:9: bodies.right overlaps bodies.left, e.g. at [0.499");
 }
 
 TEST(Geometry, TouchingBodiesDoNotOverlap) {
@@ -45,14 +46,16 @@ material = "water-tait"
 }
 
 TEST(Geometry, ThinOverlapAlongASurfaceIsFound) {
-  expect(with(coupled_tube, "radius = 0.044, low", "radius = 0.0442, low"), "16:9: bodies.water overlaps the structure, e.g. at [");
+  expect(with(coupled_tube, "radius = 0.044, low", "radius = 0.0442, low"),
+         "16:9: bodies.water overlaps the structure, e.g. at [");
 }
 
 TEST(Geometry, OutsideTheWall) {
   EXPECT_EQ(mistakes(two_gases + tank), "");
   expect(with(two_gases + tank, "low = 0.5, high = 1}", "low = 0.5, high = 1.2}"),
          "15:9: bodies.right reaches outside the wall 'tank', e.g. at [");
-  EXPECT_EQ(mistakes(with(two_gases + tank, "low = 0.5, high = 1}", "low = 0.5, high = 1.2}") + "faces = {x_high = \"open\"}\n"), "");
+  EXPECT_EQ(mistakes(with(two_gases + tank, "low = 0.5, high = 1}", "low = 0.5, high = 1.2}") + "faces = {x_high = \"open\"}\n"),
+            "");
   EXPECT_EQ(mistakes(two_gases + tank + "faces = {side = \"open\"}\n"),
             "23:10: unknown key 'side' in walls.tank.faces; known: x_low, x_high, y_low, y_high, z_low, z_high\n");
   EXPECT_EQ(mistakes(two_gases + tank + "faces = {z_low = \"open\"}\n"),
@@ -68,7 +71,8 @@ TEST(Geometry, InThePartThatSymmetryLeavesOut) {
 
 TEST(Geometry, SmallerThanTheSpacing) {
   expect(with(coupled_tube, "radius = 0.0072", "radius = 0.0007"),
-         "11:9: bodies.charge is 0.0014 m at its thinnest, less than the spacing 0.002 m; make the spacing smaller or the body larger");
+         "11:9: bodies.charge is 0.0014 m at its thinnest, less than the spacing 0.002 m; make the spacing smaller or the body "
+         "larger");
 }
 
 TEST(Geometry, Subtractions) {
@@ -114,11 +118,11 @@ TEST(Geometry, ProbesInNowhere) {
 
 TEST(Geometry, Solids) {
   expect(with(impact, "0.0121", "0.0115"), "17:9: solids.plate overlaps solids.ball, e.g. at [");
-  expect(with(bathed_disc, "subtract = [\"disc\"]\n", ""),
-         "14:9: solids.disc overlaps bodies.water, e.g. at [");
+  expect(with(bathed_disc, "subtract = [\"disc\"]\n", ""), "14:9: solids.disc overlaps bodies.water, e.g. at [");
   expect(with(bathed_disc, "subtract = [\"disc\"]", "subtract = [\"dsic\"]"),
          "10:13: bodies.water.subtract: no body 'dsic'; did you mean 'disc'?");
-  expect(with(bathed_disc, "name = \"disc\"", "name = \"water\""), "14:8: solids: the name 'water' is that of a body; choose another one");
+  expect(with(bathed_disc, "name = \"disc\"", "name = \"water\""),
+         "14:8: solids: the name 'water' is that of a body; choose another one");
   expect(with(impact, "name = \"plate\"", "name = \"ball\""), "16:8: solids: the name 'ball' is used twice; choose another one");
   expect(with(impact, "position = -0.01", "position = -0.001"),
          "22:12: planes.0: solids.plate starts 0.001 m beyond the plane z = -0.001, whose free side is above; move one of them");
@@ -126,7 +130,8 @@ TEST(Geometry, Solids) {
          "17:9: solids.plate: the symmetry plane x = 0 does not halve it (it runs from -0.04 to 0.05 m); centre the whole solid");
   expect(with(impact, "velocity = [0, 0, -1000]", "velocity = [1, 0, -1000]"),
          "13:12: solids.ball: its motion is not its own mirror image across the symmetry plane x = 0; change the motion");
-  expect(with(impact, "velocity = [0, 0, -1000]", "spin = [0, 0, 3]"), "13:8: solids.ball: its motion is not its own mirror image");
+  expect(with(impact, "velocity = [0, 0, -1000]", "spin = [0, 0, 3]"),
+         "13:8: solids.ball: its motion is not its own mirror image");
   EXPECT_EQ(mistakes(with(impact, "velocity = [0, 0, -1000]", "spin = [3, 0, 0]")), "");
   expect(with(impact, "velocity = [0, 0, -1000]", "wet = [\"side\"]"),
          "13:7: solids.ball.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
@@ -158,23 +163,28 @@ TEST(Geometry, Gravity) {
   EXPECT_EQ(*scene.fluid.bodies[0].level, undex::Vec3(0, 1, 0));
   expect(with(pool, "gravity = [0, -9.81]\n", ""), "10:9: bodies.water.level means nothing without gravity");
   expect(with(pool, "pressure = 1e5\n", ""), "10:9: bodies.water.level is where the body has its pressure: give pressure");
-  expect(with(pool, "level = [0, 1]", "level = [0, -20]"), "11:9: bodies.water.level: with 1e+05 Pa there the body has no hydrostatic equilibrium");
+  expect(with(pool, "level = [0, 1]", "level = [0, -20]"),
+         "11:9: bodies.water.level: with 1e+05 Pa there the body has no hydrostatic equilibrium");
   // A symmetry plane may be the bottom, but not cut the water.
   const std::string planes = "\n[symmetry]\nplanes = [\"y\"]\n";
   EXPECT_EQ(mistakes(pool + planes), "");
-  expect(with(pool, "low = [0, 0]", "low = [0, -1]") + planes, "3:11: gravity is not its own mirror image across the symmetry plane y = 0");
-  expect(pool + "[start]\nkind = \"plane_wave\"\naxis = \"y\"\nfront = 0.5\npeak = 1e6\ndecay = 1e-5\n", "3:11: gravity needs start.kind = \"plain\"");
+  expect(with(pool, "low = [0, 0]", "low = [0, -1]") + planes,
+         "3:11: gravity is not its own mirror image across the symmetry plane y = 0");
+  expect(pool + "[start]\nkind = \"plane_wave\"\naxis = \"y\"\nfront = 0.5\npeak = 1e6\ndecay = 1e-5\n",
+         "3:11: gravity needs start.kind = \"plain\"");
 }
 
 TEST(Geometry, Rotation) {
   EXPECT_EQ(mistakes(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = 17")), "");
-  expect(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = [1, 2, 3]"), "6:12: resolution.rotation must be a number in degrees");
+  expect(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = [1, 2, 3]"),
+         "6:12: resolution.rotation must be a number in degrees");
   expect(with(pool, "spacing = 0.01", "spacing = 0.01\nrotation = 17\nfit = \"water\""),
          "6:12: resolution.rotation turns a Cartesian lattice that is not fitted, in 2D and 3D; leave out fit or rotation");
 }
 
 TEST(Geometry, NamesAndFit) {
-  expect(with(two_gases, "name = \"right\"", "name = \"left\""), "14:8: bodies: the name 'left' is used twice; choose another one");
+  expect(with(two_gases, "name = \"right\"", "name = \"left\""),
+         "14:8: bodies: the name 'left' is used twice; choose another one");
   expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nfit = \"watr\""),
          "5:7: resolution.fit: no body or wall 'watr'; did you mean 'water'?");
   expect(with(coupled_tube, "spacing = 0.002", "spacing = 0.002\nlattice = \"rings\""),

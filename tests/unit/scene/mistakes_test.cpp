@@ -45,7 +45,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"unknown key of another table", with(two_gases, "spacing = 0.01", "spacing = 0.01\ncourant = 0.3"),
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
-       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, pressure, "
+       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, "
+       "pressure, "
        "level, density, energy, burn, variable_h\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
        "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high\n"},
@@ -60,7 +61,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "18:14: bodies.right.variable_h must be true or false, not the text \"yes\"\n"},
       {"local steps of a Runge-Kutta method",
        with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nintegrator = \"ssp_rk3\"\nlocal_steps = true"),
-       "8:15: scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; leave one of them out\n"},
+       "8:15: scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; leave one of "
+       "them out\n"},
       {"local steps with shifting",
        with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nshifting = 0.5\nlocal_steps = true"),
        "8:15: scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one for all; "
@@ -80,8 +82,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "18:10: bodies.right.energy = nan [J/kg] must be a finite number\n"},
       {"negative density", with(two_gases, "density = 0.125", "density = -1"),
        "17:11: bodies.right.density = -1 [kg/m^3] must be greater than 0\n"},
-      {"dimension", with(two_gases, "dimension = 1", "dimension = 4"),
-       "1:13: dimension = 4 must be from 1 to 3\n"},
+      {"dimension", with(two_gases, "dimension = 1", "dimension = 4"), "1:13: dimension = 4 must be from 1 to 3\n"},
       {"components", with(coupled_tube, "point = [0.044, 0, 0]", "point = [0.044, 0]"),
        "30:9: probes.wall.point must be an array of 3 numbers, not an array of 2\n"},
       {"choice", with(coupled_tube, "kind = \"wall\"", "kind = \"wal\""),
@@ -99,7 +100,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "22:61: structure.shape.outer_radius = 0.05 must be greater than inner_radius = 0.06\n"},
       {"solid as a fluid", with(coupled_tube, "\"water-tait\"", "\"al-6061-t6\""),
        "18:12: bodies.water.material: 'al-6061-t6' is a solid, not a fluid; known here: "},
-      {"unattainable pressure", with(coupled_tube, "pressure = 1e5", "pressure = -1e9"), "19:12: bodies.water.pressure = -1e+09 Pa: "},
+      {"unattainable pressure", with(coupled_tube, "pressure = 1e5", "pressure = -1e9"),
+       "19:12: bodies.water.pressure = -1e+09 Pa: "},
       {"energy of a barotropic law", with(coupled_tube, "pressure = 1e5", "energy = 1e5"),
        "19:10: bodies.water.energy: the law of 'water-tait' is barotropic, it has no energy; leave it out\n"},
       {"burn of water", with(coupled_tube, "pressure = 1e5", "burn = {}"),
@@ -108,36 +110,42 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "20:10: symmetry.planes names \"z\", but the scene has dimension = 1; leave it out or raise the dimension\n"},
       {"support", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"hihg\"}]"),
        "26:21: structure.supports.0.face: unknown 'hihg'; did you mean 'high'?\n"},
-      {"face that symmetry cuts away", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"low\"}]"),
+      {"face that symmetry cuts away",
+       with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"low\"}]"),
        "26:21: structure.supports.0.face: unknown 'low'; known: inner, outer, high\n"},
       {"shell of a rod",
-       "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\nshape = {type = \"rod\", radius = 1, low = 0, high = 9}\n",
+       "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\nshape = {type = \"rod\", radius = 1, low "
+       "= 0, high = 9}\n",
        "4:11: structure.element = \"shell\" needs a wall whose thickness direction is known, that of a tube, ring or plate; "
        "use \"hexahedron\" for a rod\n"},
-      {"wet face", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inside\"]"),
-       "25:7: structure.wet: unknown 'inside'"},
+      {"wet face", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inside\"]"), "25:7: structure.wet: unknown 'inside'"},
       {"cells that symmetry cannot halve", with(coupled_tube, "along = 20", "along = 21"),
        "23:44: structure.cells.along = 21 must be a multiple of 2: it counts the whole body, which a symmetry plane halves; "
        "e.g. 22\n"},
-      {"load", with(coupled_tube, "wet = [\"inner\"]",
-                    "wet = [\"inner\"]\nloads = [{face = \"outer\", time = [0, 1, 1], pressure = [1, 2]}]"),
+      {"load",
+       with(coupled_tube, "wet = [\"inner\"]",
+            "wet = [\"inner\"]\nloads = [{face = \"outer\", time = [0, 1, 1], pressure = [1, 2]}]"),
        "26:34: structure.loads.0.time must increase: 1 follows 1\n"
        "26:56: structure.loads.0: time has 3 values and pressure 2; give as many of each, at least one\n"},
-      {"structure below three dimensions", two_gases + "[structure]\nmaterial = \"copper-ofhc\"\n"
-                                                       "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\n",
+      {"structure below three dimensions",
+       two_gases + "[structure]\nmaterial = \"copper-ofhc\"\n"
+                   "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\n",
        "19:1: [structure] needs dimension = 3, but the scene has dimension = 1\n"},
       {"coupling of nothing", two_gases + "[coupling]\nslip = false\n",
        "19:1: [coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one\n"},
-      {"circle of materials", with(two_gases, "dimension = 1", "dimension = 1\nmaterials = {a = {base = \"b\"}, b = {base = \"a\"}}"),
+      {"circle of materials",
+       with(two_gases, "dimension = 1", "dimension = 1\nmaterials = {a = {base = \"b\"}, b = {base = \"a\"}}"),
        "the materials are based on each other in a circle; base one of them on the library\n"},
       {"Taylor bar without a bar", two_gases + "[comparison]\nkind = \"taylor_bar\"\n",
-       "20:8: comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first of [[solids]], a cylinder; there is none\n"},
+       "20:8: comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first of "
+       "[[solids]], a cylinder; there is none\n"},
       {"profile without a solution", two_gases + "[comparison]\nkind = \"profile\"\n",
        "19:1: comparison.solution is missing; name the exact solution, e.g. solution = \"riemann\"\n"},
       {"profile with an unknown solution", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"rieman\"\n",
        "21:12: comparison.solution: unknown 'rieman'; did you mean 'riemann'?\n"},
-      {"profile of bodies apart", with(two_gases, "low = 0.5, high = 1", "low = 0.6, high = 1") +
-                                      "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\n",
+      {"profile of bodies apart",
+       with(two_gases, "low = 0.5, high = 1", "low = 0.6, high = 1") +
+           "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\n",
        "21:12: comparison.solution: \"riemann\" needs bodies that meet in one plane across x; 'left' ends at x = 0.500000 m, "
        "'right' begins at 0.600000 m\n"},
       {"profile of another problem", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"noh\"\n",
@@ -151,22 +159,27 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "22:10: comparison.window must be [least, largest] coordinate in m, the first below the second\n"},
       {"window without a profile", two_gases + "[comparison]\nkind = \"none\"\nwindow = [0, 1]\n",
        "21:10: comparison.window belongs to kind = \"profile\"; leave it out\n"},
-      {"stiffened gas without energy", with(two_gases, "{law = \"ideal_gas\", rho0 = 1, gamma = 1.4}\ndensity = 0.125\nenergy = 2",
-                                            "{law = \"stiffened_gas\", rho0 = 1, gamma = 4.4, p_inf = 6}\ndensity = 0.125"),
-       "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)\n"},
+      {"stiffened gas without energy",
+       with(two_gases, "{law = \"ideal_gas\", rho0 = 1, gamma = 1.4}\ndensity = 0.125\nenergy = 2",
+            "{law = \"stiffened_gas\", rho0 = 1, gamma = 4.4, p_inf = 6}\ndensity = 0.125"),
+       "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) "
+       "rho)\n"},
       {"plane wave without its keys", two_gases + "[start]\nkind = \"plane_wave\"\nbody = \"left\"\n",
        "19:1: start.axis is missing; name the axis along which the wave runs\n"
        "19:1: start.front is missing; give the position of the wave's front along its axis in m\n"
        "19:1: start.peak is missing; give the wave's largest pressure above that at rest in Pa\n"
        "19:1: start.decay is missing; give the time in s over which the wave falls by e\n"},
-      {"plane wave in which body", two_gases + "[start]\nkind = \"plane_wave\"\naxis = \"x\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
+      {"plane wave in which body",
+       two_gases + "[start]\nkind = \"plane_wave\"\naxis = \"x\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
        "19:1: start.kind = \"plane_wave\": the scene has several bodies; name the one that carries the wave by start.body\n"},
       {"plane wave along no axis",
        two_gases + "[start]\nkind = \"plane_wave\"\nbody = \"left\"\naxis = \"z\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
        "22:8: start.axis: the scene has dimension = 1 and no such axis\n"},
       {"plane wave through a symmetry plane",
-       two_gases + "[symmetry]\nplanes = [\"x\"]\n[start]\nkind = \"plane_wave\"\nbody = \"left\"\naxis = \"x\"\nfront = 0.2\npeak = 1\ndecay = 1e-3\n",
-       "24:8: start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave the plane out, or let "
+       two_gases + "[symmetry]\nplanes = [\"x\"]\n[start]\nkind = \"plane_wave\"\nbody = \"left\"\naxis = \"x\"\nfront = "
+                   "0.2\npeak = 1\ndecay = 1e-3\n",
+       "24:8: start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave the plane "
+       "out, or let "
        "the wave run along another axis\n"},
       {"key of a plane wave alone", two_gases + "[start]\npeak = 1e6\n",
        "20:8: start.peak is of start.kind = \"plane_wave\"; leave it out or set the kind\n"},
@@ -175,7 +188,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "23:8: comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"\n"
        "24:9: comparison.probe must be a structure probe: the plate's velocity is compared\n"},
       {"free field of no charge", two_gases + "[comparison]\nkind = \"free_field\"\n",
-       "20:8: comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and the medium from "
+       "20:8: comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and the "
+       "medium from "
        "which it is subtracted\n20:8: comparison.kind = \"free_field\" compares the pressures of fluid probes; add [[probes]]\n"},
       {"comparison", two_gases + "[comparison]\nkind = \"tube\"\nprobe = \"outer\"\nreference = \"none.csv\"\n",
        "21:9: comparison.probe: no probe 'outer'\n22:13: comparison.reference: no file '"},
@@ -193,24 +207,31 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "17:8: solids.disc.spin must be a number in rad/s in two dimensions: only z is left to turn about\n"},
       {"solid without spacing", with(impact, "spacing = 0.001", ""),
        "3:1: resolution.spacing is missing; give the distance of particles in m, e.g. spacing = 0.002\n"},
-      {"solid of water", with(bathed_disc, "\"copper-ofhc\"", "\"water-tait\""), "16:12: solids.disc.material: 'water-tait' is a fluid"},
-      {"solids in one dimension", two_gases + "[[solids]]\nname = \"s\"\nshape = {type = \"box\", low = 2, high = 3}\n"
-                                              "material = \"copper-ofhc\"\n",
+      {"solid of water", with(bathed_disc, "\"copper-ofhc\"", "\"water-tait\""),
+       "16:12: solids.disc.material: 'water-tait' is a fluid"},
+      {"solids in one dimension",
+       two_gases + "[[solids]]\nname = \"s\"\nshape = {type = \"box\", low = 2, high = 3}\n"
+                   "material = \"copper-ofhc\"\n",
        "19:1: [[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1\n"},
-      {"solids and structure", coupled_tube + "[[solids]]\nname = \"s\"\nshape = {type = \"sphere\", center = [1, 0, 0], radius = 0.1}\n"
-                                              "material = \"copper-ofhc\"\n",
+      {"solids and structure",
+       coupled_tube + "[[solids]]\nname = \"s\"\nshape = {type = \"sphere\", center = [1, 0, 0], radius = 0.1}\n"
+                      "material = \"copper-ofhc\"\n",
        "21:1: [structure] and [[solids]] in one scene are not built"},
       {"plane across no axis", with(bathed_disc, "[[probes]]", "[[planes]]\naxis = \"z\"\n[[probes]]"),
        "20:8: planes.0.axis: the scene has dimension = 2, so no such axis\n"},
       {"planes without solids", two_gases + "[[planes]]\naxis = \"x\"\n",
        "19:1: [[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid take [[walls]]\n"},
-      {"side of a plane", with(impact, "position = -0.01", "free_side = \"left\""), "22:13: planes.0.free_side: unknown 'left'; known: above, below\n"},
+      {"side of a plane", with(impact, "position = -0.01", "free_side = \"left\""),
+       "22:13: planes.0.free_side: unknown 'left'; known: above, below\n"},
       {"field of solids", impact + "[output]\nsolid_fields = [\"mises\"]\n", "28:16: output.solid_fields: unknown 'mises'"},
       {"switch without room", two_gases + "[scheme]\nname = \"monaghan_switch\"\nalpha = 0.05\n",
-       "21:9: scheme.alpha = 0.05 is the upper bound of a coefficient whose lower one is scheme.alpha_min = 0.1 with scheme.name = "
+       "21:9: scheme.alpha = 0.05 is the upper bound of a coefficient whose lower one is scheme.alpha_min = 0.1 with scheme.name "
+       "= "
        "\"monaghan_switch\": raise alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")\n"},
-      {"scheme without solids", two_gases + "[solid_scheme]\neta = 1.2\n", "19:1: [solid_scheme] without [[solids]]: add one, or remove it\n"},
-      {"nothing", "end_time = 1\n", "1:1: the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one\n"},
+      {"scheme without solids", two_gases + "[solid_scheme]\neta = 1.2\n",
+       "19:1: [solid_scheme] without [[solids]]: add one, or remove it\n"},
+      {"nothing", "end_time = 1\n",
+       "1:1: the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one\n"},
   };
   for (const Mistake& each : all) {
     const std::string found = mistakes(each.scene);
@@ -219,7 +240,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
 }
 
 TEST(Mistakes, OfSolids) {
-  const std::string alone = "end_time = 1\n[structure]\nshape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\nmaterial = ";
+  const std::string alone =
+      "end_time = 1\n[structure]\nshape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 1]}\nmaterial = ";
   const std::string steel = "{rho0 = 7800, young_modulus = 2e11, poisson_ratio = 0.3, ";
   const std::string za = "{law = \"zerilli_armstrong\", ", damage = "{D1 = 0.1, D2 = 0.2, D3 = -1, D4 = 0, D5 = 0";
   const std::string at = "structure.material.", needs = "; a law without 'base' needs all its parameters\n";
@@ -230,7 +252,8 @@ TEST(Mistakes, OfSolids) {
       {"law missing", steel + "flow = {Y0 = 1e8}}",
        at + "flow.law is missing; one of elastic, linear_hardening, johnson_cook, power_hardening, cowper_symonds, "
             "zerilli_armstrong\n"},
-      {"Cowper-Symonds without D", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, q = 5}}", at + "flow.D is missing" + needs},
+      {"Cowper-Symonds without D", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, q = 5}}",
+       at + "flow.D is missing" + needs},
       {"negative D", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, D = -40, q = 5}}",
        "4:122: " + at + "flow.D = -40 [1/s] must be greater than 0\n"},
       {"q", steel + "flow = {law = \"cowper_symonds\", Y0 = 1e8, H = 0, D = 40, q = 0}}",
@@ -252,14 +275,18 @@ TEST(Mistakes, OfSolids) {
        at + "spall.mode: unknown 'fails'; did you mean 'fail'?\n"},
       {"spall as a number", "{base = \"al-6061-t6\", spall = 1e9}", at + "spall must be a table"},
       {"damage constant missing", "{base = \"al-6061-t6\", damage = {D1 = 0.1, D2 = 0.2, D3 = -1, D4 = 0}}",
-       at + "damage.D5 is missing; Johnson and Cook's fracture strain needs D1 to D5; write 0 for a term that it does not have\n"},
+       at +
+           "damage.D5 is missing; Johnson and Cook's fracture strain needs D1 to D5; write 0 for a term that it does not have\n"},
       {"sign of D3", "{base = \"al-6061-t6\", damage = {D1 = 0.1, D2 = 0.2, D3 = 1, D4 = 0, D5 = 0}}",
        at + "damage.D3 = 1 must be from -100 to 0\n"},
       {"damage without a melting point", "{base = \"al-5086-za\", damage = " + damage + "}}",
-       at + "damage.T_melt is missing; give the melting temperature in K: only a flow stress of law \"johnson_cook\" brings one\n"},
+       at + "damage.T_melt is missing; give the melting temperature in K: only a flow stress of law \"johnson_cook\" brings "
+            "one\n"},
       {"broken from the start", "{base = \"al-6061-t6\", damage = {D1 = -0.5, D2 = 0.25, D3 = 0, D4 = 0, D5 = 0}}",
-       at + "damage: D1 + D2 exp(1.5 D3) = -0.25 must be greater than 0: it is the fracture strain in the highest tension that counts\n"},
-      {"unknown key of damage", "{base = \"al-6061-t6\", damage = " + damage + ", D6 = 1}}", "unknown key 'D6' in " + at + "damage"},
+       at + "damage: D1 + D2 exp(1.5 D3) = -0.25 must be greater than 0: it is the fracture strain in the highest tension that "
+            "counts\n"},
+      {"unknown key of damage", "{base = \"al-6061-t6\", damage = " + damage + ", D6 = 1}}",
+       "unknown key 'D6' in " + at + "damage"},
   };
   for (const Mistake& each : all) {
     const std::string found = mistakes(alone + each.scene + "\n");
@@ -277,7 +304,8 @@ TEST(Mistakes, GoodScenesHaveNone) {
 
 TEST(Mistakes, OfAMaterialUsedTwiceAreReportedOnce) {
   std::string scene = two_gases;
-  for (const char* name : {"left", "right"}) scene = with(scene, std::string("name = \"") + name + "\"", std::string("name = \"") + name + "_\"");
+  for (const char* name : {"left", "right"})
+    scene = with(scene, std::string("name = \"") + name + "\"", std::string("name = \"") + name + "_\"");
   const std::string found = mistakes("materials.gas = {law = \"ideal_gas\", rho0 = 1, gamma = 0.5}\n" + scene,
                                      {{"bodies.0.material", "gas"}, {"bodies.1.material", "gas"}});
   EXPECT_EQ(found, "1:55: materials.gas.gamma = 0.5 must be greater than 1 and at most 100\n");

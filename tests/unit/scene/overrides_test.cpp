@@ -38,17 +38,17 @@ TEST(Overrides, NumbersListsWordsAndTables) {
   EXPECT_EQ(scene.probes[0].quantities, (std::vector<std::string>{"pressure"}));
 }
 
-TEST(Overrides, TheLastOneCounts) {
-  EXPECT_EQ(read_text(two_gases, {{"end_time", "1"}, {"end_time", "2"}}).end_time, 2);
-}
+TEST(Overrides, TheLastOneCounts) { EXPECT_EQ(read_text(two_gases, {{"end_time", "1"}, {"end_time", "2"}}).end_time, 2); }
 
 TEST(Overrides, MistakesNameTheOption) {
   const auto expect = [](const Override& given, const std::string& expected) {
     EXPECT_EQ(mistakes(coupled_tube, {given}), expected);
   };
   expect({"resolution.spcing", "1"}, "-P resolution.spcing: unknown key 'spcing' in resolution; did you mean 'spacing'?\n");
-  expect({"resolutoin.spacing", "1"}, "-P resolutoin.spacing: unknown key 'resolutoin' at the top of the file; did you mean 'resolution'?\n");
-  expect({"resolution.spacing", "2mm"}, "-P resolution.spacing: resolution.spacing must be a number in m, not the text \"2mm\"\n");
+  expect({"resolutoin.spacing", "1"},
+         "-P resolutoin.spacing: unknown key 'resolutoin' at the top of the file; did you mean 'resolution'?\n");
+  expect({"resolution.spacing", "2mm"},
+         "-P resolution.spacing: resolution.spacing must be a number in m, not the text \"2mm\"\n");
   expect({"resolution.spacing", "-1"},
          "-P resolution.spacing: resolution.spacing = -1 [m] must be greater than 0 and at most 1e+05\n");
   expect({"bodies.watr.pressure", "1"}, "-P bodies.watr.pressure: nothing in bodies is named 'watr'; did you mean 'water'?\n");

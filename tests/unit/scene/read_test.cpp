@@ -148,8 +148,7 @@ TEST(Read, EachKernelHasItsOwnSmoothingLength) {
 /// Each scheme brings what it is published with, where the scene does not say otherwise.
 TEST(Read, SchemesBringTheirDefaults) {
   const auto numerics = [](const std::string& keys) { return read_text(two_gases + "[scheme]\n" + keys + "\n").fluid.numerics; };
-  for (const auto& [word, scheme] : sph::scheme_names)
-    EXPECT_EQ(numerics("name = \"" + std::string(word) + "\"").scheme, scheme);
+  for (const auto& [word, scheme] : sph::scheme_names) EXPECT_EQ(numerics("name = \"" + std::string(word) + "\"").scheme, scheme);
   const sph::Numerics paper = numerics("name = \"paper\"");
   EXPECT_EQ(paper.kernel, sph::KernelName::gaussian);
   EXPECT_EQ(paper.eta, 1.2);
@@ -174,13 +173,15 @@ TEST(Read, CellSizeGivesTheCountsOfTheWholeTube) {
 
 TEST(Read, OtherStructures) {
   const std::string frame = "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nvelocity = [0, 0, -227]\n";
-  const Scene rod = read_text(frame + "shape = {type = \"rod\", radius = 0.0032, low = 0, high = 0.0324}\n"
-                                      "supports = [{face = \"low\", fixed = [\"z\"]}]\n");
+  const Scene rod = read_text(frame +
+                              "shape = {type = \"rod\", radius = 0.0032, low = 0, high = 0.0324}\n"
+                              "supports = [{face = \"low\", fixed = [\"z\"]}]\n");
   EXPECT_EQ(std::get<fem::RodMesh>(rod.structure->mesh).cells_radial, 6);
   EXPECT_EQ(rod.structure->supports[0].fixed, (std::array<bool, 3>{false, false, true}));
   EXPECT_EQ(rod.structure->initial_velocity, Vec3(0, 0, -227));
-  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 2, 0.1]}\n"
-                                        "cells = {z = 4}\n[[structure.loads]]\nface = \"z_high\"\ntime = [0]\npressure = [1e6]\n");
+  const Scene plate = read_text(frame +
+                                "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 2, 0.1]}\n"
+                                "cells = {z = 4}\n[[structure.loads]]\nface = \"z_high\"\ntime = [0]\npressure = [1e6]\n");
   EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{20, 40, 4}));
   EXPECT_EQ(plate.structure->loads[0].pressure[0], 1e6);
   const Scratch scratch;
@@ -191,12 +192,14 @@ TEST(Read, OtherStructures) {
 
 TEST(Read, ShellsAreOneCellThick) {
   const std::string frame = "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\n";
-  const Scene ring = read_text(frame + "shape = {type = \"ring\", inner_radius = 0.1, outer_radius = 0.105, low = 0, high = 0.02}\n");
+  const Scene ring =
+      read_text(frame + "shape = {type = \"ring\", inner_radius = 0.1, outer_radius = 0.105, low = 0, high = 0.02}\n");
   EXPECT_EQ(ring.structure->element, fem::ElementKind::shell);
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_through, 1);
   EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_along, 4);
-  const Scene plate = read_text(frame + "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 7\n"
-                                    "[[planes]]\naxis = \"y\"\nposition = 1\nfree_side = \"below\"\n");
+  const Scene plate = read_text(frame +
+                                "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 7\n"
+                                "[[planes]]\naxis = \"y\"\nposition = 1\nfree_side = \"below\"\n");
   EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{10, 1, 20}));
   EXPECT_EQ(plate.structure->points_through, 7);
   EXPECT_EQ(plate.structure->planes[0].axis, 1);

@@ -280,7 +280,13 @@ point = [0.005, -0.002, 0.005]
 kind = "taylor_plate"
 probe = "plate"
 )",
-                                    coupled_tube, two_gases, impact, bathed_disc + "[coupling]\nsolids = \"surface\"\n", profile, imploding, pool};
+                                    coupled_tube,
+                                    two_gases,
+                                    impact,
+                                    bathed_disc + "[coupling]\nsolids = \"surface\"\n",
+                                    profile,
+                                    imploding,
+                                    pool};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
   for (const std::string& text : rich) {
@@ -441,8 +447,8 @@ TEST(RoundTrip, KeepsFlowStressAndFailure) {
 
 // Keys that a resolved scene does not need: other spellings of what it holds.
 TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
-  const std::vector<std::string> spellings{".materials", "structure.cell_size", "walls.condition", "material.solid.base",
-                                           "material.solid.young_modulus", "material.solid.poisson_ratio"};
+  const std::vector<std::string> spellings{".materials",          "structure.cell_size",          "walls.condition",
+                                           "material.solid.base", "material.solid.young_modulus", "material.solid.poisson_ratio"};
   std::string all;
   for (const std::string& text : rich) all += '\n' + to_toml(read_text(text));
   for (const Section& section : schema())
@@ -450,7 +456,8 @@ TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
       const std::string full = section.name + '.' + key.name;
       if (std::find(spellings.begin(), spellings.end(), full) != spellings.end() || key.name == "base") continue;
       const bool there = all.find('\n' + key.name + " = ") != std::string::npos ||
-                         all.find('[' + key.name + ']') != std::string::npos || all.find('.' + key.name + ']') != std::string::npos;
+                         all.find('[' + key.name + ']') != std::string::npos ||
+                         all.find('.' + key.name + ']') != std::string::npos;
       EXPECT_TRUE(there) << full;
     }
 }

@@ -12,8 +12,7 @@ namespace undex::scene::test {
 
 Scratch::Scratch() {
   static std::atomic<int> count{0};
-  folder_ = std::filesystem::temp_directory_path() /
-            ("undex_scene_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+  folder_ = std::filesystem::temp_directory_path() / ("undex_scene_" + std::to_string(getpid()) + "_" + std::to_string(count++));
   std::filesystem::create_directories(folder_);
 }
 Scratch::~Scratch() {
@@ -38,9 +37,8 @@ std::string mistakes(const std::string& text, const std::vector<Override>& overr
   } catch (const SceneError& error) {
     std::string all;
     for (const Finding& finding : error.findings())
-      all += (finding.where.line > 0
-                  ? std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column) + ": "
-                  : std::string()) +
+      all += (finding.where.line > 0 ? std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column) + ": "
+                                     : std::string()) +
              finding.message + '\n';
     return all;
   }

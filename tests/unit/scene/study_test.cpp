@@ -94,8 +94,8 @@ labels = ["diatomic", "two"]
   ASSERT_EQ(study.runs.size(), 2u);
   EXPECT_EQ(study.runs[1].name, "law__gamma_two");
   const std::string& resolved = study.runs[1].resolved;
-  for (const char* line : {"threads = 2", "end_time = 0.2", "field_times = [0.1]", "gamma = 1.6", "rho0 = 2.5",
-                           "variable_h = false", "gamma = 2.0"})
+  for (const char* line :
+       {"threads = 2", "end_time = 0.2", "field_times = [0.1]", "gamma = 1.6", "rho0 = 2.5", "variable_h = false", "gamma = 2.0"})
     EXPECT_NE(resolved.find(line), std::string::npos) << line << "\n" << resolved;
   EXPECT_FALSE(study.resolution.has_value());
 }
@@ -139,18 +139,16 @@ TEST(Study, ExcludesWhatARuleNames) {
   };
   EXPECT_EQ(names("[{spacing = 0.01, scheme = \"zeta\"}]"),
             "spacing_0.02__zeta spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
-  EXPECT_EQ(names("[{spacing = 1e-2}]"), "spacing_0.02__zeta spacing_0.02__monaghan_1_10 ")
-      << "numbers are compared as such";
-  EXPECT_EQ(names("[{scheme = [\"zeta\"], spacing = [0.01, 0.02]}]"),
-            "spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
+  EXPECT_EQ(names("[{spacing = 1e-2}]"), "spacing_0.02__zeta spacing_0.02__monaghan_1_10 ") << "numbers are compared as such";
+  EXPECT_EQ(names("[{scheme = [\"zeta\"], spacing = [0.01, 0.02]}]"), "spacing_0.02__monaghan_1_10 spacing_0.01__monaghan_1_10 ");
   EXPECT_EQ(names("[{spacing = 0.01}, {scheme = \"zeta\"}]"), "spacing_0.02__monaghan_1_10 ");
 }
 
 TEST(Study, ErrorsAndLimits) {
-  const Study study = study_of(
-      "repeats = 3\ncpu_limit = 10\nresolution = \"spacing\"\n" +
-      with(study_text, "errors = [\"energy_error\"]",
-           "errors = [\"l1_pressure\", {metric = \"peak_pa\", source = \"exact\"}, {metric = \"a\", label = \"b\"}]"));
+  const Study study =
+      study_of("repeats = 3\ncpu_limit = 10\nresolution = \"spacing\"\n" +
+               with(study_text, "errors = [\"energy_error\"]",
+                    "errors = [\"l1_pressure\", {metric = \"peak_pa\", source = \"exact\"}, {metric = \"a\", label = \"b\"}]"));
   ASSERT_EQ(study.errors.size(), 3u);
   EXPECT_EQ(study.errors[0].label, "l1_pressure");
   EXPECT_EQ(study.errors[1].label, "peak_pa from exact");
@@ -225,9 +223,9 @@ TEST(Study, MistakesOfTheScenesAreToldWhereTheStudyMakesThem) {
         }
         return "";
       }(),
-      scratch.folder().string() + "/study.toml: " + scene +
-          ":1:1: end_time is missing; give it in s, e.g. end_time = 1e-4\n" + scratch.folder().string() +
-          "/study.toml: " + scene + ":2:1: unknown key 'end_tim' at the top of the file; did you mean 'end_time'?");
+      scratch.folder().string() + "/study.toml: " + scene + ":1:1: end_time is missing; give it in s, e.g. end_time = 1e-4\n" +
+          scratch.folder().string() + "/study.toml: " + scene +
+          ":2:1: unknown key 'end_tim' at the top of the file; did you mean 'end_time'?");
 }
 
 TEST(Study, WhatCannotBeAGrid) {
@@ -246,8 +244,7 @@ TEST(Study, WhatCannotBeAGrid) {
             0u);
   std::string many;
   for (const char* name : {"a", "b", "c", "d", "e"})
-    many +=
-        "[[axes]]\nname = \"" + std::string(name) + "\"\nkey = \"" + name + "\"\nvalues = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
+    many += "[[axes]]\nname = \"" + std::string(name) + "\"\nkey = \"" + name + "\"\nvalues = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
   EXPECT_EQ(study_mistakes(many), "the study has 100000 runs, more than 10000; split it\n");
   EXPECT_NE(study_mistakes("axes = [").find("not TOML"), std::string::npos);
   const Scratch empty;

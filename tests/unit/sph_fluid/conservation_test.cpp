@@ -25,7 +25,8 @@ Sample blob(int dimension, SchemeName scheme, KernelName kernel) {
   for (int k = 0; k < 250; ++k) water.particles.push_back(random_particle(dice, anywhere(), dimension, h, dx, 1000, 1e8, 1500));
   for (int k = 0; k < 150; ++k)
     gas.particles.push_back(random_particle(dice, anywhere(), dimension, h * dice.between(0.7, 2), dx, 1, 1e6, 700));
-  for (int k = 0; k < 50; ++k) metal.particles.push_back(random_particle(dice, anywhere(), dimension, 1.4 * h, dx, 3000, 1e9, 5000));
+  for (int k = 0; k < 50; ++k)
+    metal.particles.push_back(random_particle(dice, anywhere(), dimension, 1.4 * h, dx, 3000, 1e9, 5000));
   sample.sets = {water, gas, metal};
   return sample;
 }
@@ -60,7 +61,8 @@ Balance balance(const Result& r) {
     b.momentum += m * rate.a;
     b.momentum_scale += m * rate.a.norm();
     const Vec3 x = place(q);
-    b.angular += m * Vec3(x[1] * rate.a[2] - x[2] * rate.a[1], x[2] * rate.a[0] - x[0] * rate.a[2], x[0] * rate.a[1] - x[1] * rate.a[0]);
+    b.angular +=
+        m * Vec3(x[1] * rate.a[2] - x[2] * rate.a[1], x[2] * rate.a[0] - x[0] * rate.a[2], x[0] * rate.a[1] - x[1] * rate.a[0]);
     b.angular_scale += m * x.norm() * rate.a.norm();
     const double kinetic = m * speed(q).dot(rate.a), internal = m * q.p / q.rho * rate.compression, heat = m * rate.heat;
     b.energy += kinetic + internal + heat;
@@ -236,7 +238,8 @@ TEST(Reconstruction, LinearFieldsAreExact) {
       const GradientRow& g = r.gradients[i];
       // At the blob's corners neighbours are too few, and the sums stand uncorrected.
       bool inside = true;
-      for (int a = 0; a < d; ++a) inside = inside && place(r.particles[i])[a] > 0.9 * dx && place(r.particles[i])[a] < (n - 1.9) * dx;
+      for (int a = 0; a < d; ++a)
+        inside = inside && place(r.particles[i])[a] > 0.9 * dx && place(r.particles[i])[a] < (n - 1.9) * dx;
       if (!inside) continue;
       for (int a = 0; a < d; ++a) {
         EXPECT_NEAR(g.strain[a], slope(a, a), 1e-4);
@@ -289,7 +292,6 @@ TEST(Filling, WrongVolumesExpandAsTheirSurroundings) {
       }
 }
 
-
 // ---- Runs ----------------------------------------------------------------------------------------------------------
 
 /// A free blob of water at high pressure with gas inside: nothing outside to exchange with.
@@ -322,12 +324,13 @@ TEST_P(Conservation, FreeBlobRun) {
     EXPECT_LT((end.momentum - start.momentum).norm(), 1e-12 * speed_sum);
     error[fine] = std::abs(total(end) - total(start)) / end.kinetic;
   }
-  // Measured at the usual Courant number: 3e-4 to 1.3e-3 of the kinetic energy, less than a quarter of it at half the step. Corrected
-  // gradients are stiffer at free surfaces: 2.5e-3 and 6e-3 (Wendland C2, C6), an eighth or less at half the step.
+  // Measured at the usual Courant number: 3e-4 to 1.3e-3 of the kinetic energy, less than a quarter of it at half the step.
+  // Corrected gradients are stiffer at free surfaces: 2.5e-3 and 6e-3 (Wendland C2, C6), an eighth or less at half the step.
   const bool corrected = GetParam().scheme == SchemeName::riemann_corrected;
   EXPECT_LT(error[0], corrected ? 1e-2 : 2e-3);
   EXPECT_LT(error[1], (corrected ? 0.2 : 0.4) * error[0]);
-  RecordProperty("energy_error_of_kinetic", std::to_string(error[0] * 1e6) + "e-6, half step " + std::to_string(error[1] * 1e6) + "e-6");
+  RecordProperty("energy_error_of_kinetic",
+                 std::to_string(error[0] * 1e6) + "e-6, half step " + std::to_string(error[1] * 1e6) + "e-6");
 }
 
 /// Kinetic, internal and dissipated energy together drift by the integrator's error alone, of second order in dt.

@@ -70,7 +70,8 @@ TEST(Footprint, SymmetryIsTheWholePlate) {
   std::vector<Vec3> in_part, in_whole;
   for (const Vec3& x : part.x) in_part.push_back(field(x));
   for (const Vec3& x : whole.x) in_whole.push_back(field(x));
-  const Footprint of_part(part.faces, part.x, 0.032, {true, true, false}), of_whole(whole.faces, whole.x, 0.032, {false, false, false});
+  const Footprint of_part(part.faces, part.x, 0.032, {true, true, false}),
+      of_whole(whole.faces, whole.x, 0.032, {false, false, false});
   const std::vector<Vec3> a = of_part.seen(in_part), b = of_whole.seen(in_whole);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {

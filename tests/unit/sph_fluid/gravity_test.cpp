@@ -33,18 +33,21 @@ struct Way {
 };
 
 class Falling : public ::testing::TestWithParam<Way> {};
-INSTANTIATE_TEST_SUITE_P(
-    Ways, Falling,
-    ::testing::Values(Way{SchemeName::riemann, Integrator::leapfrog, false}, Way{SchemeName::riemann, Integrator::leapfrog, true},
-                      Way{SchemeName::riemann, Integrator::ssp_rk3, false}, Way{SchemeName::riemann_corrected, Integrator::leapfrog, true},
-                      Way{SchemeName::monaghan, Integrator::leapfrog, false}, Way{SchemeName::monaghan, Integrator::leapfrog, true},
-                      Way{SchemeName::monaghan_switch, Integrator::ssp_rk3, false}, Way{SchemeName::paper, Integrator::leapfrog, false}),
-    [](const auto& one) {
-      std::string name;
-      for (const auto& [word, scheme] : scheme_names)
-        if (scheme == one.param.scheme) name = word;
-      return name + (one.param.integrator == Integrator::ssp_rk3 ? "_rk3" : one.param.local ? "_local" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Ways, Falling,
+                         ::testing::Values(Way{SchemeName::riemann, Integrator::leapfrog, false},
+                                           Way{SchemeName::riemann, Integrator::leapfrog, true},
+                                           Way{SchemeName::riemann, Integrator::ssp_rk3, false},
+                                           Way{SchemeName::riemann_corrected, Integrator::leapfrog, true},
+                                           Way{SchemeName::monaghan, Integrator::leapfrog, false},
+                                           Way{SchemeName::monaghan, Integrator::leapfrog, true},
+                                           Way{SchemeName::monaghan_switch, Integrator::ssp_rk3, false},
+                                           Way{SchemeName::paper, Integrator::leapfrog, false}),
+                         [](const auto& one) {
+                           std::string name;
+                           for (const auto& [word, scheme] : scheme_names)
+                             if (scheme == one.param.scheme) name = word;
+                           return name + (one.param.integrator == Integrator::ssp_rk3 ? "_rk3" : one.param.local ? "_local" : "");
+                         });
 
 TEST_P(Falling, BurstsAsIfAtRest) {
   const auto [scheme, integrator, local] = GetParam();
@@ -96,9 +99,7 @@ Settings column(double spacing, SchemeName scheme) {
   return s;
 }
 
-double exact_pressure(const Settings& s, double x) {
-  return hydrostatic_column(s.bodies[0], s.gravity, 1).pressure(height - x);
-}
+double exact_pressure(const Settings& s, double x) { return hydrostatic_column(s.bodies[0], s.gravity, 1).pressure(height - x); }
 
 /// Root mean square error of the pressure over its largest.
 double error(const Fluid& fluid) {
@@ -109,7 +110,8 @@ double error(const Fluid& fluid) {
 }
 
 class Column : public ::testing::TestWithParam<SchemeName> {};
-INSTANTIATE_TEST_SUITE_P(Schemes, Column, ::testing::Values(SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan),
+INSTANTIATE_TEST_SUITE_P(Schemes, Column,
+                         ::testing::Values(SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan),
                          [](const auto& one) {
                            for (const auto& [name, scheme] : scheme_names)
                              if (scheme == one.param) return name;

@@ -56,9 +56,9 @@ TYPED_TEST(Kernels, IntegralIsOne) {
 TYPED_TEST(Kernels, FirstMomentOfTheGradient) {
   const double h = 0.37;
   for (int d = 1; d <= 3; ++d)
-    EXPECT_NEAR(integral(TypeParam::support * h,
-                         [&](double r) { return shell(r, d) * r * r * gradient_factor<TypeParam>(r, h, d); }),
-                -double(d), 1e-10)
+    EXPECT_NEAR(
+        integral(TypeParam::support * h, [&](double r) { return shell(r, d) * r * r * gradient_factor<TypeParam>(r, h, d); }),
+        -double(d), 1e-10)
         << d << "D";
 }
 
@@ -89,14 +89,16 @@ TYPED_TEST(Kernels, EndsAtTheSupport) {
 TEST(Kernels, GoByTheirNames) {
   std::set<std::string> names;
   for (const KernelName name : all_kernels) names.insert(with_kernel(name, [](auto kernel) { return kernel.name; }));
-  EXPECT_EQ(names, (std::set<std::string>{"gaussian", "wendland_c2", "wendland_c4", "wendland_c6", "cubic_spline", "quintic_spline"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"gaussian", "wendland_c2", "wendland_c4", "wendland_c6", "cubic_spline", "quintic_spline"}));
 }
 
 /// The pieces of a spline meet with their slopes, and the inner ones stay finite at the middle, in single precision too.
 template <class Kernel>
 void pieces_meet() {
   for (double q = 1.0; q < Kernel::support; q += 1.0)
-    EXPECT_NEAR(Kernel::template gradient_of_root<double>(q * (1 - 1e-12)), Kernel::template gradient_of_root<double>(q * (1 + 1e-12)),
+    EXPECT_NEAR(Kernel::template gradient_of_root<double>(q * (1 - 1e-12)),
+                Kernel::template gradient_of_root<double>(q * (1 + 1e-12)),
                 1e-9 * std::abs(Kernel::template gradient_of_root<double>(0.0)));
   for (const float q : {1e-12f, 1e-3f, 0.3f, 0.999f, 1.5f, 1.999f})
     EXPECT_NEAR(Kernel::template gradient_of_root<float>(q) / Kernel::template gradient_of_root<double>(q), 1.0, 1e-4) << q;

@@ -158,7 +158,8 @@ TEST(Lattice, WarnsOfAPlaneBetweenItsCellFaces) {
   EXPECT_TRUE(lattice_warnings(settings).empty());
   settings.lattice.origin = Vec3(0.33, 0, 0);
   ASSERT_EQ(lattice_warnings(settings).size(), 1u);
-  EXPECT_NE(lattice_warnings(settings)[0].find("0.3 spacings off) the symmetry plane x = 0"), std::string::npos) << lattice_warnings(settings)[0];
+  EXPECT_NE(lattice_warnings(settings)[0].find("0.3 spacings off) the symmetry plane x = 0"), std::string::npos)
+      << lattice_warnings(settings)[0];
   settings.lattice.origin = Vec3::Zero();
   settings.lattice.rotation = Vec3(0, 0, 90);
   EXPECT_TRUE(lattice_warnings(settings).empty());
@@ -190,10 +191,12 @@ TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
   EXPECT_TRUE(lattice_warnings(settings).empty());
   settings.lattice.type = LatticeType::cartesian;
   ASSERT_EQ(lattice_warnings(settings).size(), 1u);
-  EXPECT_NE(lattice_warnings(settings)[0].find("round slip wall of radius 0.4445 m"), std::string::npos) << lattice_warnings(settings)[0];
+  EXPECT_NE(lattice_warnings(settings)[0].find("round slip wall of radius 0.4445 m"), std::string::npos)
+      << lattice_warnings(settings)[0];
 }
 
-/// A ball does not see how its lattice lies: its particles, and all that becomes of them, are those of the lattice as it is, turned.
+/// A ball does not see how its lattice lies: its particles, and all that becomes of them, are those of the lattice as it is,
+/// turned.
 TEST(Lattice, TurnedInABall) {
   for (const int dimension : {2, 3}) {
     Settings straight = scene(dimension, 0.1, Shape{Sphere{Vec3::Zero(), 0.5}, {}});

@@ -1,5 +1,5 @@
-// Bodies with steps of their own: what they exchange is conserved as with one step for all, and the answer is the same but for the
-// step's error.
+// Bodies with steps of their own: what they exchange is conserved as with one step for all, and the answer is the same but for
+// the step's error.
 #include <algorithm>
 #include <numbers>
 #include <set>
@@ -189,7 +189,8 @@ TEST(LocalStepsInTime, SecondOrder) {
     s.numerics.local_steps = true;
     s.numerics.courant = 0.2 / (1 << k);
     for (const bool fine : {false, true}) {
-      Body water = body(fine ? "fine" : "coarse", box(Vec3(fine ? 0.9375 : 0, -1, -1), Vec3(fine ? 1 : 0.9375, 1, 1)), "water-tait");
+      Body water =
+          body(fine ? "fine" : "coarse", box(Vec3(fine ? 0.9375 : 0, -1, -1), Vec3(fine ? 1 : 0.9375, 1, 1)), "water-tait");
       if (fine) water.spacing = 1.0 / 192;
       const double low = fine ? 0.9375 : 0.0, high = fine ? 1.0 : 0.9375;
       StartField field;

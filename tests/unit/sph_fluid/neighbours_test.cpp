@@ -36,10 +36,10 @@ struct Case {
   std::string name;
   int dimension;
   KernelName kernel;
-  bool lattice;              // else scattered
-  bool bodies;               // a second body of other spacing with variable h, a third of other constant h
+  bool lattice;  // else scattered
+  bool bodies;   // a second body of other spacing with variable h, a third of other constant h
   std::array<bool, 3> mirror;
-  int wall;                  // 0: none, 1: free slip, 2: no slip, 3: both, moving
+  int wall;  // 0: none, 1: free slip, 2: no slip, 3: both, moving
   SchemeName scheme = SchemeName::monaghan;
 };
 
@@ -54,7 +54,9 @@ Sample make(const Case& c) {
   const double dx = 0.1, h = (c.kernel == KernelName::gaussian ? 1.21 : 1.51) * dx;  // no lattice distance on the support's edge
   for (int a = 0; a < 3; ++a) sample.mirror[a] = c.mirror[a];
   const Vec3 size(c.dimension == 1 ? 6.0 : 0.9, c.dimension > 1 ? 0.8 : 0.0, c.dimension > 2 ? 0.7 : 0.0);
-  const Vec3 low = c.mirror[0] || c.mirror[1] || c.mirror[2] ? Vec3(0, 0, 0) : Vec3(-0.2, c.dimension > 1 ? -0.3 : 0.0, c.dimension > 2 ? 0.4 : 0.0);
+  const Vec3 low = c.mirror[0] || c.mirror[1] || c.mirror[2]
+                       ? Vec3(0, 0, 0)
+                       : Vec3(-0.2, c.dimension > 1 ? -0.3 : 0.0, c.dimension > 2 ? 0.4 : 0.0);
   Set first;
   first.cell_width = 2 * dx;
   const int counts[3] = {int(size[0] / dx + 0.5), std::max(1, int(size[1] / dx + 0.5)), std::max(1, int(size[2] / dx + 0.5))};
@@ -118,7 +120,10 @@ std::vector<Case> cases() {
     const std::string name = with_kernel(kernel, [](auto k) { return k.name; });
     for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::paper, SchemeName::monaghan_switch}) {
       if (scheme == SchemeName::monaghan && (kernel == KernelName::gaussian || kernel == KernelName::wendland_c2)) continue;
-      const std::string in = std::string(scheme == SchemeName::paper ? "paper_" : scheme == SchemeName::monaghan ? "" : "switch_") + name;
+      const std::string in = std::string(scheme == SchemeName::paper      ? "paper_"
+                                         : scheme == SchemeName::monaghan ? ""
+                                                                          : "switch_") +
+                             name;
       for (int d = 1; d <= 3; ++d)
         all.push_back({in + "_any_" + std::to_string(d) + "d", d, kernel, false, true, {true, d > 1, d > 2}, 3, scheme});
     }
@@ -182,7 +187,9 @@ TEST(PairLoops, ThreadsDoNotChangeASum) {
     }
     for (int k = 0; k < 300; ++k)
       sample.walls.push_back({{1, 2, 3, 0, 0, 1, dx * dx * dx, double(k % 2)},
-                              dice.between(0, 0.5), dice.between(0, 0.9), dice.between(0.78, 0.84)});
+                              dice.between(0, 0.5),
+                              dice.between(0, 0.9),
+                              dice.between(0.78, 0.84)});
     sample.threads = 1;
     const Result one = run(sample);
     for (const int threads : {2, 3, 7}) {
@@ -246,9 +253,11 @@ TEST(PairLoops, CountsTheNeighboursOfAKdTree) {
   const double dx = 0.03, h = 1.5 * dx;
   Set set{{}, false, 2 * dx};
   for (int k = 0; k < 10000; ++k)
-    set.particles.push_back(random_particle(dice, {dice.between(0, 0.7), dice.between(0, 0.5), dice.between(0, 0.6)}, 3, h, dx, 1000, 1e8, 1500));
+    set.particles.push_back(
+        random_particle(dice, {dice.between(0, 0.7), dice.between(0, 0.5), dice.between(0, 0.6)}, 3, h, dx, 1000, 1e8, 1500));
   for (int k = 0; k < 5; ++k)
-    set.particles.push_back(random_particle(dice, {dice.between(0, 3), dice.between(-3, 3), dice.between(-3, 3)}, 3, h, dx, 1000, 1e8, 1500));
+    set.particles.push_back(
+        random_particle(dice, {dice.between(0, 3), dice.between(-3, 3), dice.between(-3, 3)}, 3, h, dx, 1000, 1e8, 1500));
   sample.sets.push_back(set);
 
   Cloud cloud;
@@ -303,7 +312,8 @@ void expect_sorted(const CellList& cells, const Points& p, std::uint32_t first, 
     for (std::uint32_t k = grid.start[c]; k < grid.start[c + 1]; ++k) {
       const std::uint32_t i = cells.order()[k - first];
       const double at[3] = {p.x[i], p.y[i], p.z[i]};
-      const long cell[3] = {long(c % grid.count[0]), long(c / grid.count[0] % grid.count[1]), long(c / grid.count[0] / grid.count[1])};
+      const long cell[3] = {long(c % grid.count[0]), long(c / grid.count[0] % grid.count[1]),
+                            long(c / grid.count[0] / grid.count[1])};
       for (int a = 0; a < 3; ++a) {
         ASSERT_GE(at[a], grid.low[a] + (cell[a] - 1e-9) * grid.size[a]);
         ASSERT_LE(at[a], grid.low[a] + (cell[a] + 1 + 1e-9) * grid.size[a]);

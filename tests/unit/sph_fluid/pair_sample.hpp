@@ -65,7 +65,7 @@ struct Sample {
 struct Rate {
   Vec3 a = Vec3::Zero();
   double compression = 0, heat = 0, closing = 0;
-  Vec3 size = Vec3::Zero();    ///< sum of the terms' absolute values in `a`: what round-off is measured against
+  Vec3 size = Vec3::Zero();  ///< sum of the terms' absolute values in `a`: what round-off is measured against
   double compression_size = 0, heat_size = 0;
 };
 
@@ -230,7 +230,8 @@ inline double reference_slope(KernelName kernel, double q) {
     case KernelName::wendland_c4:
       return (-3 * std::pow(s, 5) * (35.0 / 12.0 * q * q + 3 * q + 1) + std::pow(s, 6) * (35.0 / 6.0 * q + 3)) / q;
     case KernelName::wendland_c6:
-      return (-4 * std::pow(s, 7) * (4 * q * q * q + 6.25 * q * q + 4 * q + 1) + std::pow(s, 8) * (12 * q * q + 12.5 * q + 4)) / q;
+      return (-4 * std::pow(s, 7) * (4 * q * q * q + 6.25 * q * q + 4 * q + 1) + std::pow(s, 8) * (12 * q * q + 12.5 * q + 4)) /
+             q;
     case KernelName::cubic_spline: return (-0.75 * above(2, 2) + 3 * above(1, 2)) / q;
     case KernelName::quintic_spline: return (-5 * above(3, 4) + 30 * above(2, 4) - 75 * above(1, 4)) / q;
   }
@@ -328,7 +329,8 @@ inline Result brute_force(const Sample& s, const Result& order) {
         if (r >= support * h) continue;
         ++result.interactions;
         const double F = gradient(r, h), approach = v.dot(x), mass = j.rho * j.volume;
-        const double Pi = 0.5 * (alpha_of(s, i) + alpha_of(s, j)) / s.alpha * reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
+        const double Pi = 0.5 * (alpha_of(s, i) + alpha_of(s, j)) / s.alpha *
+                          reference_viscosity(s, approach, r * r, h, 0.5 * (i.c + j.c), 0.5 * (i.rho + j.rho));
         const Vec3 push = -mass * ((i.p + j.p) / (i.rho * j.rho) + Pi) * F * x;
         sum.a += push;
         sum.size += push.cwiseAbs();
@@ -379,7 +381,7 @@ class Dice {
 
 /// One particle with a random state about rho0, p0 and c0.
 inline Particle random_particle(Dice& dice, const Vec3& x, int dimension, double h, double dx, double rho0, double p0,
-                                      double c0) {
+                                double c0) {
   Particle q{};
   q.x = x[0];
   q.y = x[1];

@@ -1,4 +1,5 @@
-// Water and solids as one system of particles: momentum to round-off, work accounted for, and a solid that does not move is a wall.
+// Water and solids as one system of particles: momentum to round-off, work accounted for, and a solid that does not move is a
+// wall.
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/particle_system.hpp"
 
@@ -42,11 +43,8 @@ Settings drop(Description description, double density = 2700, double speed = 50)
 }
 
 class Drop : public ::testing::TestWithParam<Description> {};
-INSTANTIATE_TEST_SUITE_P(Descriptions, Drop,
-                         ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
-                         [](const auto& one) {
-                           return one.param == Description::total_lagrangian ? "Total" : "Updated";
-                         });
+INSTANTIATE_TEST_SUITE_P(Descriptions, Drop, ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
+                         [](const auto& one) { return one.param == Description::total_lagrangian ? "Total" : "Updated"; });
 
 TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
   const Settings s = drop(GetParam());

@@ -293,8 +293,7 @@ TEST(NumericalStops, HappenAtAll) {
   Settings settings = bubble(1, SchemeName::monaghan, 0.1);
   settings.numerics.fixed_step = 1e150;
   Fluid fluid(settings);
-  EXPECT_THROW(
-      for (int k = 0; k < 50; ++k) fluid.step(fluid.step_limit().step), NumericalStop);
+  EXPECT_THROW(for (int k = 0; k < 50; ++k) fluid.step(fluid.step_limit().step), NumericalStop);
 }
 
 /// Takes a step of dt [s] and, where it goes wrong, compares what it leaves with what came before. Returns whether it was
@@ -408,7 +407,8 @@ TEST(Fields, ShapesAndValues) {
   fluid.step_limit();
   const std::size_t n = fluid.particle_count();
   for (const char* name : {"position", "velocity"}) EXPECT_EQ(fluid.field(name).size(), 3 * n);
-  for (const char* name : {"pressure", "density", "void_fraction", "energy", "smoothing_length", "material", "sound_speed", "mass", "id"})
+  for (const char* name :
+       {"pressure", "density", "void_fraction", "energy", "smoothing_length", "material", "sound_speed", "mass", "id"})
     EXPECT_EQ(fluid.field(name).size(), n) << name;
   std::vector<double> ids = fluid.field("id");
   std::sort(ids.begin(), ids.end());

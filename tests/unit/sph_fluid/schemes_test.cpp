@@ -43,8 +43,8 @@ std::size_t middle_of(const Result& r, int d, int n, double dx) {
 
 // ---- riemann: contacts -------------------------------------------------------------------------------------------
 
-/// A particle of gas at x = 0 and one of water, a thousand times as dense, a spacing to its right: `gas` and `water` set their states.
-/// Rates of the gas first, whichever body comes first.
+/// A particle of gas at x = 0 and one of water, a thousand times as dense, a spacing to its right: `gas` and `water` set their
+/// states. Rates of the gas first, whichever body comes first.
 template <class SetGas, class SetWater>
 std::vector<Rate> contact(bool water_first, SetGas gas, SetWater water) {
   const auto particle = [](double x, double rho, double c) {
@@ -71,7 +71,8 @@ std::vector<Rate> contact(bool water_first, SetGas gas, SetWater water) {
 }
 const auto as_it_is = [](Particle&) {};
 
-/// Where water leaves gas behind at equal pressure, the gap is the gas's: it expands, by the impedances' ratio more than the water.
+/// Where water leaves gas behind at equal pressure, the gap is the gas's: it expands, by the impedances' ratio more than the
+/// water.
 TEST(Contact, MovesWithTheHeavySide) {
   for (const bool water_first : {false, true}) {
     const std::vector<Rate> rates = contact(water_first, as_it_is, [](Particle& q) { q.vx = 10.0; });
@@ -81,13 +82,14 @@ TEST(Contact, MovesWithTheHeavySide) {
   }
 }
 
-/// Pressures that fall from the contact as the densities, as a common acceleration wants it: the pair's pressure is the contact's.
+/// Pressures that fall from the contact as the densities, as a common acceleration wants it: the pair's pressure is the
+/// contact's.
 TEST(Contact, PressureIsThatOfACommonAcceleration) {
   const double slope = 100.0;  // m/s^2
   for (const bool water_first : {false, true}) {
     const auto even = contact(water_first, as_it_is, as_it_is);
-    const auto rising = contact(water_first, [&](Particle& q) { q.p += 0.05 * q.rho * slope; },
-                                [&](Particle& q) { q.p -= 0.05 * q.rho * slope; });
+    const auto rising = contact(
+        water_first, [&](Particle& q) { q.p += 0.05 * q.rho * slope; }, [&](Particle& q) { q.p -= 0.05 * q.rho * slope; });
     ASSERT_GT(std::abs(even[0].a[0]), 0.0);
     EXPECT_NEAR(rising[0].a[0] / even[0].a[0], 1.0, 1e-12);
     EXPECT_NEAR(rising[1].a[0] / even[1].a[0], 1.0, 1e-12);
@@ -157,8 +159,8 @@ TEST(Corrected, CompressionIsThatOfTheDistances) {
     for (const Particle& q : r.particles) {
       const double distance = (place(q) - place(me)).norm();
       if (distance == 0.0 || distance >= 2.0 * me.h) continue;
-      wanted += q.rho * q.volume * (speed(me) - speed(q)).dot(place(me) - place(q)) *
-                reference_scale(sample.kernel, d) * reference_slope(sample.kernel, distance / me.h) / std::pow(me.h, d + 2);
+      wanted += q.rho * q.volume * (speed(me) - speed(q)).dot(place(me) - place(q)) * reference_scale(sample.kernel, d) *
+                reference_slope(sample.kernel, distance / me.h) / std::pow(me.h, d + 2);
     }
     EXPECT_NEAR(r.rates[i].compression * me.rho / wanted, 1.0, 1e-5) << d;
   }
@@ -250,8 +252,10 @@ double dissipated_in_a_wave(SchemeName scheme) {
 }
 
 TEST(Switch, QuietWavesKeepTheirEnergy) {
-  const double constant = dissipated_in_a_wave(SchemeName::monaghan), switched = dissipated_in_a_wave(SchemeName::monaghan_switch);
-  RecordProperty("share_of_the_kinetic_energy", std::to_string(constant) + " constant, " + std::to_string(switched) + " switched");
+  const double constant = dissipated_in_a_wave(SchemeName::monaghan),
+               switched = dissipated_in_a_wave(SchemeName::monaghan_switch);
+  RecordProperty("share_of_the_kinetic_energy",
+                 std::to_string(constant) + " constant, " + std::to_string(switched) + " switched");
   EXPECT_GT(switched, 0.0);
   EXPECT_LT(switched, 0.3 * constant);  // 0.1 is the ratio of the coefficients
 }
@@ -357,7 +361,8 @@ TEST(Shifting, NoneAtAContact) {
 TEST(Shifting, EvensOut) {
   const double spacing = 0.08;
   double unevenness[3];
-  const std::pair<bool, Integrator> cases[] = {{false, Integrator::leapfrog}, {true, Integrator::leapfrog}, {true, Integrator::ssp_rk3}};
+  const std::pair<bool, Integrator> cases[] = {
+      {false, Integrator::leapfrog}, {true, Integrator::leapfrog}, {true, Integrator::ssp_rk3}};
   for (int k = 0; k < 3; ++k) {
     const auto [shifted, integrator] = cases[k];
     Settings settings;
@@ -372,8 +377,10 @@ TEST(Shifting, EvensOut) {
     StartField vortices;
     const double pi = std::numbers::pi, speed = 100.0, density = materials::density_at(water.material.law, 5e7, 0.0);
     vortices.state = [=](const Vec3& x, double) {
-      return StartState{density, 0.0,
-                        {speed * std::sin(pi * x[0]) * std::cos(pi * x[1]), -speed * std::cos(pi * x[0]) * std::sin(pi * x[1]), 0}};
+      return StartState{
+          density,
+          0.0,
+          {speed * std::sin(pi * x[0]) * std::cos(pi * x[1]), -speed * std::cos(pi * x[0]) * std::sin(pi * x[1]), 0}};
     };
     vortices.mass = 4.0 * density;
     vortices.kinetic_energy = density * speed * speed;

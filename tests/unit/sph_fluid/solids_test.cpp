@@ -48,11 +48,8 @@ Settings scene(std::vector<SolidBody> solids, double spacing, int dimension = 3)
 const Box block{Vec3(-0.03, -0.02, -0.025), Vec3(0.03, 0.02, 0.025)};
 
 class Both : public ::testing::TestWithParam<Description> {};
-INSTANTIATE_TEST_SUITE_P(Descriptions, Both,
-                         ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
-                         [](const auto& one) {
-                           return one.param == Description::total_lagrangian ? "Total" : "Updated";
-                         });
+INSTANTIATE_TEST_SUITE_P(Descriptions, Both, ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
+                         [](const auto& one) { return one.param == Description::total_lagrangian ? "Total" : "Updated"; });
 
 /// Velocities M x of every particle, by a kick.
 void set_motion(Solids& solids, const Mat3& M) {
@@ -113,8 +110,8 @@ TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
   Mat3 expected;
   const auto& d = points.deviator;
   expected << d[0][0], d[5][0], d[4][0], d[5][0], d[1][0], d[3][0], d[4][0], d[3][0], d[2][0];
-  expected -= materials::evaluate(s.solids[0].material.pressure, density, density / F.determinant(), 0).pressure *
-              Mat3::Identity();
+  expected -=
+      materials::evaluate(s.solids[0].material.pressure, density, density / F.determinant(), 0).pressure * Mat3::Identity();
   for (std::size_t i = 0; i < solids.particle_count(); ++i)
     ASSERT_LT((solids.stress(i) - expected).norm(), 1e-9 * expected.norm()) << i;
 }

@@ -40,9 +40,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                          ::testing::Values(OfOrder{Integrator::leapfrog, 2.0}, OfOrder{Integrator::ssp_rk3, 3.0}),
                          [](const auto& one) { return one.param.order > 2 ? "ssp_rk3" : "leapfrog"; });
 
-/// On one lattice, so that the error in space drops out of the differences between steps of dt, dt/2 and dt/4. A small wave: where
-/// particles move by more of a spacing, pairs enter and leave the kernel's support, whose third derivative jumps there, and so
-/// does the Runge-Kutta method's order fall to 2.4.
+/// On one lattice, so that the error in space drops out of the differences between steps of dt, dt/2 and dt/4. A small wave:
+/// where particles move by more of a spacing, pairs enter and leave the kernel's support, whose third derivative jumps there, and
+/// so does the Runge-Kutta method's order fall to 2.4.
 TEST_P(Order, SmoothWave) {
   std::vector<std::vector<Vec3>> velocity, position;
   std::vector<double> energy;
@@ -158,8 +158,9 @@ TEST(SspRk3, SymmetryPlane) {
     s.numerics.integrator = Integrator::ssp_rk3;
     s.numerics.courant = 0.5;
     // One body in both: pairs of two bodies are not those of one.
-    Body jets = body("jets", Shape{Box{Vec3(half ? 0 : -0.5, -1, -1), Vec3(0.5, 1, 1)}, {Box{Vec3(-0.05, -1, -1), Vec3(0.05, 1, 1)}}},
-                     "sjogreen-gas");
+    Body jets =
+        body("jets", Shape{Box{Vec3(half ? 0 : -0.5, -1, -1), Vec3(0.5, 1, 1)}, {Box{Vec3(-0.05, -1, -1), Vec3(0.05, 1, 1)}}},
+             "sjogreen-gas");
     StartField field;
     field.state = [](const Vec3& x, double) { return StartState{0.5, 0.0, Vec3(x[0] > 0 ? -4 : 4, 0, 0)}; };
     jets.start = std::make_shared<StartField>(field);
@@ -174,8 +175,8 @@ TEST(SspRk3, SymmetryPlane) {
   EXPECT_NEAR(2 * internal[1] / internal[0], 1.0, 1e-7);
 }
 
-/// At a Courant number of 1.5 (it bears 1.6; the leapfrog 0.4 without viscosity, 0.5 with the Riemann scheme) the shortest waves of
-/// a lattice do not grow.
+/// At a Courant number of 1.5 (it bears 1.6; the leapfrog 0.4 without viscosity, 0.5 with the Riemann scheme) the shortest waves
+/// of a lattice do not grow.
 TEST(SspRk3, BearsItsStep) {
   for (const SchemeName scheme : {SchemeName::monaghan, SchemeName::riemann})
     for (const Integrator integrator : {Integrator::ssp_rk3, Integrator::leapfrog}) {
@@ -197,15 +198,13 @@ TEST(SspRk3, BearsItsStep) {
         fluid.step(fluid.step_limit().step);
         largest = std::max(largest, fluid.ledger().kinetic);
       }
-      if (integrator == Integrator::ssp_rk3)
-        EXPECT_LT(largest, 1.5 * start);
-      else
-        EXPECT_GT(largest, 1e2 * start);
+      if (integrator == Integrator::ssp_rk3) EXPECT_LT(largest, 1.5 * start);
+      else EXPECT_GT(largest, 1e2 * start);
     }
 }
 
-/// The coefficient of a switched viscosity moves as it does with the leapfrog: what both dissipate meets as the step falls, and is
-/// far less than with the coefficient held at its bound.
+/// The coefficient of a switched viscosity moves as it does with the leapfrog: what both dissipate meets as the step falls, and
+/// is far less than with the coefficient held at its bound.
 TEST(SspRk3, SwitchedViscosity) {
   const auto dissipated = [](SchemeName scheme, Integrator integrator, double dt) {
     Settings s = column(integrator, 64, 20.0);

@@ -87,7 +87,8 @@ MovingWall quarter_tube(double radius, double length, int around, int along) {
   for (int j = 0; j <= along; ++j)
     for (int i = 0; i <= around; ++i) {
       const double angle = 0.5 * std::numbers::pi * i / around;
-      wall.position.push_back({i == around ? 0.0 : radius * std::cos(angle), i == 0 ? 0.0 : radius * std::sin(angle), length * j / along});
+      wall.position.push_back(
+          {i == around ? 0.0 : radius * std::cos(angle), i == 0 ? 0.0 : radius * std::sin(angle), length * j / along});
     }
   const auto node = [&](int i, int j) { return j * (around + 1) + i; };
   for (int j = 0; j < along; ++j)
@@ -152,7 +153,8 @@ TEST(WallImages, MovingWallReceivesWhatTheFluidLoses) {
   }
 }
 
-/// Images in a fine mesh are those in the cylinder: at 2 R - r, their volume by 3/4 of the power of the ratio of space, (2 R - r)/r.
+/// Images in a fine mesh are those in the cylinder: at 2 R - r, their volume by 3/4 of the power of the ratio of space, (2 R -
+/// r)/r.
 TEST(WallImages, InAMeshAreThoseInTheCylinder) {
   double previous = 0;
   for (const int around : {8, 16, 32}) {

@@ -179,7 +179,9 @@ TEST(Symmetry, OctantIsTheFullRun) {
     const std::vector<Vec3> start = by_id(full, "position"), start_octant = by_id(octant, "position");
     std::vector<std::size_t> partner(start_octant.size());
     for (std::size_t i = 0; i < start_octant.size(); ++i)
-      partner[i] = std::size_t(std::find_if(start.begin(), start.end(), [&](const Vec3& x) { return (x - start_octant[i]).norm() < 1e-9; }) - start.begin());
+      partner[i] = std::size_t(
+          std::find_if(start.begin(), start.end(), [&](const Vec3& x) { return (x - start_octant[i]).norm() < 1e-9; }) -
+          start.begin());
     for (int k = 0; k < 15; ++k) {
       const double dt = octant.step_limit().step;
       EXPECT_NEAR(full.step_limit().step, dt, (rounds ? 1e-8 : 1e-9) * dt);  // shorter by the closing speeds
