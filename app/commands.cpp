@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "app/describe.hpp"
-#include "app/run.hpp"
+#include "run/describe.hpp"
+#include "run/run.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "materials/library.hpp"
@@ -77,18 +77,18 @@ void print_set(const Set& set) {
 
 int run_scene(const RunArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);
-  RunOptions options;
+  run::RunOptions options;
   options.output = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
   options.threads = scene.fluid.numerics.threads;
   options.verbosity = arguments.verbosity;
   options.scene_text = whole_text(scene.file);
   options.program = version_line();
   output::require_unused_folder(options.output, arguments.force);  // made when the scene is known to be sound
-  return run(scene, options);
+  return run::compute(scene, options);
 }
 
 int check_scene(const SceneArguments& arguments) {
-  std::printf("%s", describe(read_scene(arguments)).c_str());
+  std::printf("%s", run::describe(read_scene(arguments)).c_str());
   return exit_done;
 }
 

@@ -1,6 +1,7 @@
 #include "app/version.hpp"
 
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::bench {
 

@@ -35,6 +35,7 @@
 
 #include "bench/block.hpp"
 #include "bench/fma_peak.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::bench {
 namespace {

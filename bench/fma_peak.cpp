@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::bench {
 

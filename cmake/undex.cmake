@@ -41,3 +41,21 @@ function(undex_script_tests script prefix label)
     set_tests_properties(${prefix}.${name} PROPERTIES LABELS ${label} TIMEOUT 600 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
   endforeach()
 endfunction()
+
+# undex_pair_loops(name SOURCES files...): files with loops over pairs, compiled once per instruction set (sph_fluid/pairs/simd.hpp);
+# the objects are in <name>_pair_loops.
+function(undex_pair_loops name)
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
+  foreach(level v2 v3 v4)
+    set(target undex_${name}_loops_${level})
+    add_library(${target} OBJECT ${ARG_SOURCES})
+    target_link_libraries(${target} PRIVATE undex_rules OpenMP::OpenMP_CXX)
+    target_compile_options(${target} PRIVATE -march=x86-64-${level} -ffinite-math-only -fno-signed-zeros -fno-trapping-math
+      -Wno-psabi -Wno-maybe-uninitialized -Wno-uninitialized)
+    if(level STREQUAL v4)
+      target_compile_options(${target} PRIVATE -mprefer-vector-width=512)
+    endif()
+    list(APPEND objects $<TARGET_OBJECTS:${target}>)
+  endforeach()
+  set(${name}_pair_loops ${objects} PARENT_SCOPE)
+endfunction()

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "sph_fluid/lattice.hpp"
-#include "sph_fluid/wall_images.hpp"
+#include "sph_fluid/walls/wall_images.hpp"
 
 namespace undex::coupling {
 namespace {

@@ -12,7 +12,7 @@
 #include "coupling/participant.hpp"
 #include "coupling/settings.hpp"
 #include "coupling/wet_wall.hpp"
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 

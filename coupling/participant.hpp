@@ -6,7 +6,7 @@
 
 #include "core/surface.hpp"
 #include "fem_structure/structure.hpp"
-#include "sph_fluid/solids.hpp"
+#include "sph_solid/solids.hpp"
 
 namespace undex::coupling {
 

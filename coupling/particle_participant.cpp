@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "coupling/participant.hpp"
-#include "sph_fluid/solid_faces.hpp"
+#include "sph_solid/solid_faces.hpp"
 
 namespace undex::coupling {
 namespace {

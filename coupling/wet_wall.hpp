@@ -1,5 +1,5 @@
 // The wet surface of a structure as the fluid sees it: where the fluid slips, the faces themselves, in which it is mirrored
-// (sph_fluid/wall_images.hpp); elsewhere dummy particles behind them. These ride on the bilinear shape functions
+// (sph_fluid/walls/wall_images.hpp); elsewhere dummy particles behind them. These ride on the bilinear shape functions
 // of the faces, at fixed depths along the surface normal, so that one set of weights serves both ways: motion maps
 // consistently (a rigid motion arrives as itself) and force conservatively (the sum of forces and their virtual work
 // arrive whole).
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/surface.hpp"
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 

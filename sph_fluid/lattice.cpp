@@ -8,8 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sph_fluid/kernels.hpp"
-#include "sph_fluid/wall_images.hpp"
+#include "sph_fluid/pairs/kernels.hpp"
+#include "sph_fluid/walls/wall_images.hpp"
 
 namespace undex::sph {
 namespace {

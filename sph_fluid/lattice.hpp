@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::sph {

@@ -16,7 +16,7 @@
 #include "materials/burn.hpp"
 #include "materials/hydrostatic.hpp"
 #include "materials/library.hpp"
-#include "sph_fluid/kernels.hpp"
+#include "sph_fluid/pairs/kernels.hpp"
 
 namespace undex::sph {
 

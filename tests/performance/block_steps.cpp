@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/block.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 
 /// What is counted; instructions.py knows it by this name.
 extern "C" [[gnu::noinline]] void counted_steps(undex::sph::Fluid& fluid, int steps) {

@@ -1,5 +1,5 @@
 // Loads spread over a particle's footprint: sums and power are kept, and a coarse mesh is left alone.
-#include "sph_fluid/footprint.hpp"
+#include "sph_fluid/walls/footprint.hpp"
 
 #include <gtest/gtest.h>
 

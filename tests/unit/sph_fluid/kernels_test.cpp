@@ -1,5 +1,5 @@
 // Smoothing kernels: what makes them kernels, and what makes sums over a lattice exact enough.
-#include "sph_fluid/kernels.hpp"
+#include "sph_fluid/pairs/kernels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,8 @@
 #include <set>
 
 #include "pair_sample.hpp"
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::sph::testing {
 namespace {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/vector.hpp"
-#include "sph_fluid/blocks.hpp"
-#include "sph_fluid/cell_list.hpp"
-#include "sph_fluid/pair_loop.hpp"
+#include "sph_fluid/pairs/blocks.hpp"
+#include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/pairs/pair_loop.hpp"
 
 namespace undex::sph::testing {
 

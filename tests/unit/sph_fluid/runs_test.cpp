@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 #include "scenes.hpp"
-#include "sph_fluid/pair_data.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
 
 namespace undex::sph::testing {
 namespace {

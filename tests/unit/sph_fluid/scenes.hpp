@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "sph_fluid/fluid.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::sph::testing {
 

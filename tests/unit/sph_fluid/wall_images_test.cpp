@@ -6,7 +6,7 @@
 #include <random>
 
 #include "scenes.hpp"
-#include "sph_fluid/wall_images.hpp"
+#include "sph_fluid/walls/wall_images.hpp"
 
 namespace undex::sph::testing {
 namespace {

@@ -1,0 +1,124 @@
+#include "run/describe.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "run/simulation.hpp"
+#include "run/plane_wave_start.hpp"
+#include "run/spherical_start.hpp"
+#include "core/shapes.hpp"
+#include "sph_fluid/lattice.hpp"
+
+namespace undex::run {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(buffer, sizeof buffer, pattern, arguments);
+  va_end(arguments);
+  return buffer;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1) return "less than a second";
+  if (seconds < 100) return format("about %.0f s", seconds);
+  if (seconds < 6000) return format("about %.0f min", seconds / 60);
+  return format("about %.1f h", seconds / 3600);
+}
+
+Bounds kept_part(const scene::Scene& scene) {
+  Bounds part{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+  for (int a = 0; a < 3; ++a)
+    if (scene.fluid.symmetry.axis[a]) part.low[a] = 0;
+  return part;
+}
+
+const char* const unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
+
+std::string solid_bodies(const scene::Scene& scene, const sph::Solids& solids) {
+  const std::vector<std::size_t> count = solids.particles_by_body();
+  const int dimension = scene.fluid.dimension;
+  std::string text = "solids in particles\n";
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const sph::SolidBody& solid = scene.fluid.solids[i];
+    text += format("  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n", solid.name.c_str(), count[i],
+                   volume(solid.shape, kept_part(scene), dimension), unit[dimension - 1], solid.material.name.c_str(),
+                   solid.spacing.value_or(scene.fluid.lattice.spacing),
+                   solid.description == sph::Description::total_lagrangian ? "total" : "updated");
+  }
+  return text + format("  %.6g kg, stable step %.4g us (%s)\n", solids.ledger().mass, solids.stable_step() * 1e6,
+                       solids.stable_step_owner().c_str());
+}
+
+std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
+  const int dimension = scene.fluid.dimension;
+  const std::vector<std::size_t> count = fluid.particles_by_body();
+  std::string text;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const sph::Body& body = scene.fluid.bodies[i];
+    text += format("  %-16s %10zu particles  %.6g %s of %s\n", body.name.c_str(), count[i],
+                   volume(body.shape, kept_part(scene), dimension), unit[dimension - 1], body.material.name.c_str());
+  }
+  return text + format("  %-16s %10zu particles\n", "walls", fluid.wall_particle_count());
+}
+
+}  // namespace
+
+std::string describe(const scene::Scene& given) {
+  scene::Scene scene = given;
+  using Clock = std::chrono::steady_clock;
+  std::string planes;
+  for (int a = 0; a < 3; ++a)
+    if (scene.fluid.symmetry.axis[a]) planes += std::string(planes.empty() ? "" : ", ") + "xyz"[a];
+  std::string text = format("%s: %s\n%d dimension%s, symmetry planes: %s, to %.6g us\n", scene.name.c_str(), scene.title.c_str(),
+                            scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s",
+                            planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
+
+  if (scene.start.kind == scene::Start::Kind::spherical) text += begin_spherically(scene) + "\n";
+  if (scene.start.kind == scene::Start::Kind::plane_wave) text += begin_with_plane_wave(scene) + "\n";
+  Simulation simulation(scene);
+  double memory = 0;
+  if (const sph::Fluid* fluid = simulation.fluid()) {
+    text += format("fluid, spacing %.6g m\n", scene.fluid.lattice.spacing) + bodies(scene, *fluid);
+    memory += double(fluid->memory_bytes());
+    for (const std::string& warning : sph::lattice_warnings(scene.fluid)) text += "warning: " + warning + "\n";
+  }
+  if (const fem::Structure* structure = simulation.structure()) {
+    text += format("structure %s of %s\n  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", scene.structure->name.c_str(),
+                   scene.structure->material.name.c_str(), structure->cell_count(), structure->node_count(),
+                   structure->total_mass(), structure->stable_step() * 1e6);
+    memory += double(structure->memory_bytes());
+  }
+  if (const sph::Solids* solids = simulation.solids()) {
+    text += solid_bodies(scene, *solids);
+    memory += double(solids->memory_bytes());
+  }
+
+  // A few steps, for a second at most; the quickest counts, as other programs may be running too.
+  const auto begin = Clock::now();
+  double pace = 0;  // simulated seconds per second
+  for (int taken = 0; taken < 10 && simulation.time() < scene.end_time * (1 - 1e-12); ++taken) {
+    const auto start = Clock::now();
+    const double from = simulation.time();
+    if (taken > 1 && start - begin > std::chrono::seconds(1)) break;
+    simulation.advance(scene.end_time);
+    pace = std::max(pace, (simulation.time() - from) / std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  const double step = simulation.last_step_size();
+  const double left = scene.end_time - scene.fluid.start_time;
+  const double steps = std::ceil(left / step);
+  text += format("expected step %.4g us (%s), %.0f steps\n", step * 1e6, simulation.last_step().c_str(), steps);
+  text += format("memory about %.0f MB\n", std::ceil(memory / 1e6));
+  text += format("run time %s with %d threads, by the first steps; fields and histories not counted\n",
+                 duration(left / pace).c_str(), omp_get_max_threads());
+  return text;
+}
+
+}  // namespace undex::run

@@ -1,0 +1,105 @@
+#include "sph_fluid/pairs/cell_list.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace undex::sph {
+namespace {
+
+struct Range {
+  double low, high;
+};
+
+Range range_of(const double* a, std::uint32_t first, std::uint32_t last) {
+  double low = 1e300, high = -1e300;
+  bool finite = true;
+#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) reduction(&& : finite)
+  for (std::uint32_t i = first; i < last; ++i) {
+    finite = finite && std::isfinite(a[i]);
+    low = std::min(low, a[i]);
+    high = std::max(high, a[i]);
+  }
+  if (!finite) throw std::domain_error("a particle's position is not finite");
+  return {low, high};
+}
+
+}  // namespace
+
+void CellList::build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width) {
+  first_ = first;
+  const std::uint32_t n = last - first;
+  const double* axes[3] = {x, y, z};
+  for (int a = 0; a < 3; ++a) {
+    const Range range = n > 0 ? range_of(axes[a], first, last) : Range{0.0, 0.0};
+    grid_.bound_low[a] = range.low;
+    grid_.bound_high[a] = range.high;
+  }
+  // Stray particles stretch the box: then wider cells, not more memory.
+  const double limit = 4.0 * n + 4096.0;
+  double cells;
+  for (;; width *= 1.25) {
+    cells = 1.0;
+    for (int a = 0; a < 3; ++a) {
+      grid_.size[a] = a == 0 ? 0.25 * width : width;
+      grid_.low[a] = grid_.bound_low[a] - 1e-6 * width;
+      const double count = std::floor((grid_.bound_high[a] - grid_.low[a]) / grid_.size[a]) + 1.0;
+      grid_.count[a] = int(std::min(count, 1e9));
+      cells *= count;
+    }
+    if (cells <= limit) break;
+  }
+
+  key_.resize(n);
+  const double inverse[3] = {1.0 / grid_.size[0], 1.0 / grid_.size[1], 1.0 / grid_.size[2]};
+  const std::uint32_t nx = grid_.count[0], ny = grid_.count[1];
+  const std::size_t cell_count = std::size_t(cells);
+  const int threads = std::max(1, std::min<int>(omp_get_max_threads(), int(n / 4096) + 1));
+  histogram_.assign(cell_count * threads, 0);
+  start_.resize(cell_count + 1);
+  order_.resize(n);
+#pragma omp parallel num_threads(threads)
+  {
+    const int t = omp_get_thread_num(), team = omp_get_num_threads();  // the team may be smaller than asked for
+    const std::uint32_t from = std::uint32_t(std::uint64_t(n) * t / team);
+    const std::uint32_t to = std::uint32_t(std::uint64_t(n) * (t + 1) / team);
+    std::uint32_t* mine = histogram_.data() + std::size_t(t) * cell_count;
+    for (std::uint32_t k = from; k < to; ++k) {
+      const std::uint32_t ix = std::uint32_t((x[first + k] - grid_.low[0]) * inverse[0]);
+      const std::uint32_t iy = std::uint32_t((y[first + k] - grid_.low[1]) * inverse[1]);
+      const std::uint32_t iz = std::uint32_t((z[first + k] - grid_.low[2]) * inverse[2]);
+      key_[k] = std::min(std::uint32_t(cell_count - 1), (iz * ny + iy) * nx + std::min(ix, nx - 1));
+      ++mine[key_[k]];
+    }
+#pragma omp barrier
+#pragma omp single
+    {
+      std::uint32_t sum = 0;
+      for (std::size_t c = 0; c < cell_count; ++c) {
+        start_[c] = first + sum;
+        for (int u = 0; u < team; ++u) {
+          std::uint32_t& slot = histogram_[std::size_t(u) * cell_count + c];
+          const std::uint32_t here = slot;
+          slot = sum;
+          sum += here;
+        }
+      }
+      start_[cell_count] = first + sum;
+    }
+    for (std::uint32_t k = from; k < to; ++k) order_[mine[key_[k]]++] = first + k;
+  }
+}
+
+CellGrid CellList::view() const {
+  CellGrid grid = grid_;
+  grid.start = start_.data();
+  return grid;
+}
+
+std::size_t CellList::memory_bytes() const {
+  return 4 * (start_.capacity() + key_.capacity() + order_.capacity() + histogram_.capacity());
+}
+
+}  // namespace undex::sph

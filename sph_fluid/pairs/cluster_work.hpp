@@ -1,0 +1,370 @@
+// The loop over pairs: the particles of a cluster, one after the other, against vectors of candidates. What a pair gives is
+// computed once and added to both sides. Blocks of clusters are worked on in an order in which a block waits for those of
+// its neighbours that come before it: sums do not depend on the number of threads.
+// Included by the files that are compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+#pragma once
+
+#include <omp.h>
+#include <sched.h>
+
+#include "sph_fluid/pairs/candidates.hpp"
+#include "sph_fluid/pairs/kernels.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
+
+namespace undex::sph::UNDEX_LEVEL {
+
+/// Any of the kernels, chosen by the input: one loop serves them all, for a branch that is the same for every pair
+/// (docs/performance.md has its price). The others are known where the loop is compiled.
+struct AnyKernel {
+  KernelName which;
+  double support, scale;
+  static constexpr bool needs_root = true;
+
+  double norm(int) const { return scale; }
+  template <class T, class V>
+  UNDEX_INLINE V gradient_of_root(V q) const {
+    const V inside = minimum(q, broadcast(T(support)));
+    return with_kernel(which, [&](auto kernel) UNDEX_LAMBDA_INLINE {
+      if constexpr (decltype(kernel)::needs_root) return kernel.template gradient_of_root<T>(inside);
+      else return kernel.template gradient<T>(inside * inside);
+    });
+  }
+};
+
+inline AnyKernel kernel_of(const PairInput& in, const AnyKernel*) { return {in.kernel.name, in.kernel.support, in.kernel.norm}; }
+template <class Kernel>
+UNDEX_INLINE Kernel kernel_of(const PairInput&, const Kernel*) {
+  return {};
+}
+
+namespace {
+
+double power(double a, int n) {
+  double result = 1.0;
+  for (int k = 0; k < n; ++k) result *= a;
+  return result;
+}
+
+/// F(r, h) of the kernel; h one number for all pairs.
+template <class Kernel, class T>
+struct ConstantH {
+  using V = Vec<T>;
+  Kernel kernel;
+  T h_, inverse_h, scale, reach2;
+
+  ConstantH(const Kernel& k, double h, const PairInput& in)
+      : kernel(k),
+        h_(T(h)),
+        inverse_h(T(1.0 / h)),
+        scale(T(in.kernel_scale * k.norm(in.dimension) / power(h, in.dimension + 2))),
+        reach2(T(k.support * k.support * h * h)) {}
+  UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
+    pair.h = broadcast(h_);
+    pair.near = pair.r2 < reach2;
+    if constexpr (Kernel::needs_root) {
+      const V s2 = pair.r2 + T(1e-30);
+      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
+    } else {
+      pair.F = keep(pair.near, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
+    }
+  }
+};
+
+/// The same with h_ij = (h_i + h_j)/2, a number per pair.
+template <class Kernel, class T>
+struct PairH {
+  using V = Vec<T>;
+  Kernel kernel;
+  T h_i, norm;
+  int dimension;
+
+  PairH(const Kernel& k, double h, const PairInput& in)
+      : kernel(k), h_i(T(h)), norm(T(in.kernel_scale * k.norm(in.dimension))), dimension(in.dimension) {}
+  UNDEX_INLINE void evaluate(Pair<V>& pair, const T* h_j) const {
+    const T support = T(kernel.support);
+    const V h = T(0.5) * (h_i + load(h_j));
+    pair.h = h;
+    pair.near = pair.r2 < support * support * (h * h);
+    const V inverse_h = reciprocal(h);
+    V scale = norm * (inverse_h * inverse_h * inverse_h);
+    if (dimension > 1) scale *= inverse_h;
+    if (dimension > 2) scale *= inverse_h;
+    if constexpr (Kernel::needs_root) {
+      const V s2 = pair.r2 + T(1e-30);
+      pair.F =
+          keep(pair.near,
+               scale * kernel.template gradient_of_root<T>(minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
+    } else {
+      pair.F =
+          keep(pair.near,
+               scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support))));
+    }
+  }
+};
+
+/// What the pairs of one loop have in common.
+struct PairKind {
+  bool constant_h, gas, foreign, alike;
+};
+
+/// One pass over one cluster: its candidates, the pairs with them, and the sums.
+template <class Kernel, template <class> class Scheme, class T>
+class ClusterWork {
+  using Pass = Scheme<T>;
+  using V = Vec<T>;
+  using State = typename Pass::State;
+  using Sums = typename Pass::Sums;
+  using Wall = typename Pass::Wall;
+  static constexpr int W = lanes<T>;
+  using Second = typename State::Second;
+  static constexpr bool with_second = !same_type<Second, NoRow>;
+  using List = CandidateList<T, Second, Pass::symmetric ? Sums::count : 0>;
+
+ public:
+  ClusterWork(const PairInput& in, const Pass& pass, const Cluster& cluster, Scratch& scratch, const PairOutput& out)
+      : in_(in), pass_(pass), cluster_(cluster), own_(in.groups[cluster.group]), list_(scratch), out_(out) {
+    box_ = box_of(in.x, in.y, in.z, cluster.begin, cluster.count);
+    for (int a = 0; a < 3; ++a) origin_[a] = 0.5 * (box_.low[a] + box_.high[a]);
+    h_cluster_ = own_.h_max;
+    if (own_.variable_h) {
+      h_cluster_ = 0.0;
+      for (int l = 0; l < cluster.count; ++l) h_cluster_ = h_of(l) > h_cluster_ ? h_of(l) : h_cluster_;
+    }
+  }
+
+  /// Returns the number of true neighbours met, directed.
+  long long run() {
+    if (out_of_reach() || (own_.fast ? in_.choice == PairChoice::slow : !Pass::symmetric && in_.choice == PairChoice::fast))
+      return 0;
+    for (int g = 0; g < in_.group_count; ++g) with_group(g);
+    const bool with_own = takes(own_, own_);
+    if (in_.wall_count > 0 && with_own) with_walls();
+    store_sums();
+    double met = 0;
+    for (int l = 0; l < W; ++l) met += 2.0 * double(met_[l]);
+    return (long long)(met) - (with_own ? cluster_.count : 0);  // a particle is not its own neighbour
+  }
+
+ private:
+  bool out_of_reach() const {
+    bool out = false;
+    for (int a = 0; a < 3; ++a)
+      out = out || (in_.partly &&
+                    (box_.low[a] - in_.disturbed_high[a] > in_.margin || in_.disturbed_low[a] - box_.high[a] > in_.margin));
+    return out;
+  }
+
+  /// A wall belongs to the particle that it meets: `one` twice.
+  bool takes(const GroupView& one, const GroupView& other) const {
+    return in_.choice == PairChoice::all || (one.fast || other.fast) == (in_.choice == PairChoice::fast);
+  }
+
+  double h_of(int l) const { return own_.variable_h ? in_.fluid[cluster_.begin + l].h : own_.h_max; }
+
+  void with_group(int g) {
+    const GroupView& other = in_.groups[g];
+    const bool images = other.images_of >= 0;
+    PairKind kind{};
+    kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
+    kind.gas = own_.gas || other.gas;
+    kind.foreign = (images ? other.images_of : g) != cluster_.group;
+    kind.alike = other.material == own_.material;
+    // A pair's h is the mean of two.
+    const double reach = kernel_.support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
+    // Where both sides receive their part, the pairs of two clusters belong to the first, and a cluster meets what comes after
+    // it. Of its own pairs it meets each twice: they count one half. A piece is what lies on one side of the mirrors: seen from
+    // an image, i is an image too, and what the image receives is mirrored back. Images in walls are met by all, with one half of
+    // each pair: the other is that of the image of i.
+    if (Pass::symmetric && !images && g < cluster_.group) return;
+    if (Pass::symmetric && !takes(own_, other)) return;
+    if (Pass::partners == Partners::own_body && !(g == cluster_.group && own_.own_pairs)) return;
+    if (Pass::partners == Partners::other_bodies && g == cluster_.group) return;
+    const double *x = images ? in_.images.x : in_.x, *y = images ? in_.images.y : in_.y, *z = images ? in_.images.z : in_.z;
+    const std::uint32_t next = images ? 0 : cluster_.begin + cluster_.count;
+    struct {
+      std::uint32_t begin, real;
+      int image;
+    } pieces[8];
+    int count = 0;
+    list_.size = 0;
+    for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
+      const std::uint32_t begin = list_.size;
+      std::uint32_t own = 0;
+      if (Pass::symmetric && g == cluster_.group) {
+        own = cluster_.count;
+        list_.reserve(begin + own);
+        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, x[k], y[k], z[k]);
+      }
+      scan_grid(other.grid, x, y, z, box, reach, Pass::symmetric ? next : 0, list_);
+      pieces[count++] = {begin, list_.size, image};
+      fill(begin, images ? list_.size - begin : own, images, image, reach);
+    });
+    pairs_with<State, Sums, Pass::symmetric>(kind);
+    if constexpr (Pass::symmetric)
+      for (int k = 0; k < count; ++k)
+        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
+  }
+
+  void with_walls() {
+    const PairKind kind{.constant_h = true, .gas = own_.gas, .foreign = false, .alike = true};
+    const double reach = kernel_.support * h_cluster_;
+    for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
+      list_.size = 0;
+      scan_grid(in_.wall_grid, in_.wall_x, in_.wall_y, in_.wall_z, box, reach, 0, list_);
+      const std::uint32_t real = list_.size;
+      if (real == 0) return;
+      list_.pad(0);
+      list_.fill_places(0, real, origin_, image, T(1e3 * reach));
+      list_.template fill_rows<List::state>(0, in_.wall, image);
+      if (Pass::symmetric && out_.wall != nullptr) {
+        pairs_with<Wall, WallSums<V>, true>(kind);
+        list_.template hand_out<WallSums<V>>(0, real, out_.wall, image);
+      } else {
+        pairs_with<Wall, WallSums<V>, false>(kind);
+      }
+    });
+  }
+
+  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
+  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
+    const std::uint32_t real = list_.size;
+    if (real == begin) return;
+    list_.pad(begin);
+    list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
+    if (Pass::symmetric) list_.fill_weights(begin, halves);
+    list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
+    if constexpr (with_second)
+      list_.template fill_rows<List::second>(begin, second_rows(in_, images, (const Second*)nullptr), image);
+  }
+
+  template <class Other, class OtherSums, bool two_sided>
+  void pairs_with(const PairKind& kind) {
+    if constexpr (two_sided)
+      for (std::uint32_t b = 0; b < list_.blocks(); ++b)
+        for (int k = 0; k < OtherSums::count; ++k) store(list_.block(b) + List::sum + k * W, V{});
+    if (list_.size == 0) return;
+    for (int l = 0; l < cluster_.count; ++l) {
+      if (kind.constant_h) pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
+      else pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
+    }
+  }
+
+  /// Particle l of the cluster with all candidates.
+  template <class Other, class OtherSums, bool two_sided, class Smoothing>
+  void pairs_of(int l, const PairKind& kind, const Smoothing& smoothing) {
+    const std::uint32_t me = cluster_.begin + l;
+    State i;
+    i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
+    if constexpr (with_second) i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
+    const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
+            z = broadcast(T(in_.z[me] - origin_[2]));
+    constexpr bool wall = same_type<Other, Wall>;
+    Sums si;
+    V met{};
+    Pair<V> pair;
+    pair.gas = kind.gas;
+    pair.foreign = kind.foreign;
+    pair.alike = kind.alike;
+    T* block = list_.block(0);
+    T* const end = list_.block(list_.blocks());
+    for (; block != end; block += List::stride) {
+      Other j;
+      j.read([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::state + k * W); });
+      if constexpr (with_second && !wall)
+        j.read_second([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::second + k * W); });
+      pair.dx = x - load(block + List::place);
+      pair.dy = y - load(block + List::place + W);
+      pair.dz = z - load(block + List::place + 2 * W);
+      pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
+      smoothing.evaluate(pair, block + List::state + 7 * W);
+      if constexpr (wall || !Pass::symmetric) {
+        met += keep(pair.near, broadcast(T(0.5)));
+      } else {
+        const V weight = load(block + List::weight);
+        met += keep(pair.near, weight);
+        pair.F *= weight;
+      }
+      OtherSums sj;
+      if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sum = load(block + List::sum + k * W); });
+      if constexpr (wall) pass_.wall(i, j, pair, si, sj);
+      else pass_.pair(i, j, pair, si, sj);
+      if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
+    }
+    met_ += met;
+    si.each([&](V& sum, int k)
+                UNDEX_LAMBDA_INLINE { sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
+  }
+
+  /// The particles' sums over lanes and candidates, D particles at a time.
+  void store_sums() {
+    constexpr int D = lanes<double>;
+    for (int first = 0; first < cluster_.count; first += D) {
+      Vec<double> total[Sums::count];
+#pragma GCC unroll 32
+      for (int k = 0; k < Sums::count; ++k) {
+        Vec<double> part[D];
+#pragma GCC unroll 8
+        for (int l = 0; l < D; ++l)
+          part[l] = Sums::is_maximum(k) ? halved<true>(sums_[first + l][k]) : halved<false>(sums_[first + l][k]);
+        total[k] = Sums::is_maximum(k) ? folded<true>(part) : folded<false>(part);
+      }
+      const int count = cluster_.count - first < D ? cluster_.count - first : D;
+      if constexpr (Pass::symmetric) {
+        for (int l = 0; l < count; ++l) {
+          double row[Sums::count];
+          for (int k = 0; k < Sums::count; ++k) row[k] = total[k][l];
+          List::template add_row<Sums>(&out_.fluid[cluster_.begin + first + l].fx, row);
+        }
+      } else {
+        pass_.store(total, own_.gas, in_, cluster_.begin + first, count);
+      }
+    }
+  }
+
+  const PairInput& in_;
+  const Kernel kernel_ = kernel_of(in_, (const Kernel*)nullptr);
+  const Pass& pass_;
+  const Cluster& cluster_;
+  const GroupView& own_;
+  const Second* second_ = second_rows(in_, false, (const Second*)nullptr);
+  List list_;
+  const PairOutput& out_;
+  Box3 box_;
+  double origin_[3];
+  double h_cluster_;
+  V sums_[cluster_size][Sums::count] = {};
+  V met_{};  // half the neighbours met
+};
+
+/// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away
+/// (blocks.hpp).
+void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
+  const Block& me = in.blocks[b];
+  for (int dz = -2; dz <= 2; ++dz)
+    for (int dy = -2; dy <= 2; ++dy) {
+      const int iy = me.iy + dy, iz = me.iz + dz;
+      if (iy < 0 || iz < 0 || iy >= in.columns_y || iz >= in.columns_z) continue;
+      const std::uint32_t other = in.rank[std::size_t(iz) * in.columns_y + iy];
+      if (other >= b) continue;
+      for (int spins = 0; !__atomic_load_n(&in.finished[other], __ATOMIC_ACQUIRE); ++spins)
+        spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
+    }
+}
+
+template <class Kernel, template <class> class Scheme, class T>
+void pass(const PairInput& in, const PairOutput& out) {
+  const Scheme<T> scheme(in);
+  for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
+#pragma omp parallel for schedule(monotonic : dynamic, 1)
+  for (std::uint32_t b = 0; b < in.block_count; ++b) {
+    if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
+    long long met = 0;
+    for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
+      met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
+    out.interactions[b] = met;
+    __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
+  }
+}
+
+}  // namespace
+}  // namespace undex::sph::UNDEX_LEVEL

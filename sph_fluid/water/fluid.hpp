@@ -1,0 +1,120 @@
+// The fluid: water, charge and bubble as SPH particles between walls and symmetry planes, advanced in time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/timers.hpp"
+#include "core/vector.hpp"
+#include "sph_fluid/settings.hpp"
+
+namespace undex::sph {
+
+/// The largest stable step and what set it.
+struct StepLimit {
+  double step = 0;        ///< [s]
+  std::string criterion;  ///< "Courant", "force", "density" (it may change by a fifth) or "fixed"
+  std::uint32_t particle = 0;
+  Vec3 position = Vec3::Zero();
+  std::string body;
+};
+
+/// Energy [J], momentum [kg m/s] and mass [kg] of the computed part (an octant's, say), booked since the start.
+struct Ledger {
+  double kinetic = 0;
+  double internal = 0;    ///< internal energy; compression energy where the law is barotropic
+  double dissipated = 0;  ///< viscous heat of barotropic bodies (where there is an energy field it is in `internal`)
+  double wall_work = 0;   ///< work that the fluid has done on moving walls
+  double gravity = 0;     ///< work that gravity has done on the fluid
+  double mass = 0;
+  Vec3 momentum = Vec3::Zero();
+};
+
+/// Shepard averages at a point.
+struct PointValues {
+  double pressure = 0, density = 0, void_fraction = 0;
+  Vec3 velocity = Vec3::Zero();
+  int neighbours = 0;  ///< 0: no fluid there, the values are zero
+};
+
+/// A wall that a structure moves. The owner updates position, velocity and normal before each step and collects the impulse
+/// after it. Without a mesh it is lined with dummy particles; with one its points are the nodes of faces that the fluid slips
+/// along (wall_images.hpp), and have neither normals nor volumes.
+struct MovingWall {
+  std::vector<std::array<int, 4>> mesh;  ///< faces, as WetSurface has them
+  std::vector<Vec3> position;            ///< [m]
+  std::vector<Vec3> velocity;            ///< [m/s]
+  std::vector<Vec3> normal;              ///< unit, pointing away from the fluid; behind an edge, the edge's direction
+  std::vector<double> volume;            ///< [m^3]
+  std::vector<Vec3> impulse;             ///< [N s] received from the fluid since the owner last set it to zero
+  std::vector<int> faces;                ///< how many faces of the wall a particle lies behind; empty: one, for all of them
+  bool free_slip = true;
+
+  /// PackedWall::slip of particle k: 1 behind a free-slip face, -1 behind an edge of two, else 0.
+  double slip(std::size_t k) const {
+    const int count = faces.empty() ? 1 : faces[k];
+    return !free_slip || count > 2 ? 0.0 : count == 2 ? -1.0 : 1.0;
+  }
+};
+
+/// Counts of floors and clamps that acted since the start.
+struct Clamps {
+  long density = 0;    ///< change of density in half a step held at a factor of e
+  long smoothing = 0;  ///< smoothing length held at a bound of [h_low, h_high]
+  long filling = 0;    ///< filling held at its lower bound (free surfaces of gas)
+  long energy = 0;     ///< gas with a negative energy, whose sound speed its law may hold at a lower bound
+};
+
+class Fluid {
+ public:
+  /// Lays out the particles. Throws std::invalid_argument naming the body and the remedy where none result.
+  explicit Fluid(const Settings& settings);
+  ~Fluid();
+  Fluid(Fluid&&) noexcept;
+
+  const Settings& settings() const;
+  std::size_t particle_count() const;
+  std::size_t wall_particle_count() const;
+  /// Particles of each body, in the scene's order.
+  std::vector<std::size_t> particles_by_body() const;
+  std::size_t memory_bytes() const;
+  double time() const;
+  long steps() const;
+  long substeps() const;                         ///< of fast bodies, where bodies have steps of their own
+  std::vector<std::string> fast_bodies() const;  ///< those that take substeps at present
+
+  /// Adds a wall that somebody else moves; keep the index. Its particles count from the next step on.
+  int add_moving_wall(MovingWall wall);
+  MovingWall& moving_wall(int index);
+  /// Forces [N] on its particles at the last evaluation.
+  const std::vector<Vec3>& wall_force(int index) const;
+
+  /// Valid from construction on: rates are evaluated at once.
+  StepLimit step_limit();
+  /// Advances by dt [s]. Throws NumericalStop when the state that results, or its rates, are not finite or beyond all physics.
+  /// What is left then is the last sound state, before the step or in its middle (see time()), for output.
+  void step(double dt);
+
+  Ledger ledger() const;
+  PointValues at(const Vec3& point) const;
+  double maximum_pressure() const;  ///< [Pa]
+  double maximum_speed() const;     ///< [m/s]
+  Clamps clamps() const;
+  long long neighbour_interactions() const;  ///< true neighbours, directed, summed over all steps
+  const PassTimers& timers() const;
+
+  /// Copies a field for output: position, velocity (3 components each, interleaved); pressure, density, void_fraction,
+  /// energy, smoothing_length, material, sound_speed, mass, id (1). Throws std::invalid_argument for other names.
+  std::vector<double> field(std::string_view name) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace undex::sph

@@ -1,0 +1,67 @@
+#include "sph_solid/solid_faces.hpp"
+
+#include <algorithm>
+
+namespace undex::sph {
+namespace {
+
+struct Named {
+  std::string name;
+  Face face;
+};
+
+std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension) {
+  static const char* const low_name[3] = {"x_low", "y_low", "z_low"};
+  static const char* const high_name[3] = {"x_high", "y_high", "z_high"};
+  std::vector<Named> faces;
+  const auto ends = [&](int axis, double low, double high, const char* low_face, const char* high_face) {
+    if (axis >= dimension) return;
+    if (low > -1e200) faces.push_back({low_face, {x[axis] - low, -Vec3::Unit(axis)}});
+    if (high < 1e200) faces.push_back({high_face, {high - x[axis], Vec3::Unit(axis)}});
+  };
+  const auto radial = [&](int axis, const Vec3& center) {
+    Vec3 r = x - center;
+    r[axis] = 0.0;
+    if (dimension < 3) r[2] = 0.0;
+    return r;
+  };
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    for (int a = 0; a < dimension; ++a) ends(a, box->low[a], box->high[a], low_name[a], high_name[a]);
+  } else if (const auto* slab = std::get_if<Slab>(&shape)) {
+    ends(slab->axis, slab->low, slab->high, low_name[slab->axis], high_name[slab->axis]);
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    Vec3 r = x - sphere->center;
+    for (int a = dimension; a < 3; ++a) r[a] = 0.0;
+    faces.push_back({"side", {sphere->radius - r.norm(), r.normalized()}});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    const Vec3 r = radial(cylinder->axis, cylinder->center);
+    faces.push_back({"side", {cylinder->radius - r.norm(), r.normalized()}});
+    ends(cylinder->axis, cylinder->low, cylinder->high, "low", "high");
+  } else {
+    const TubeShape& tube = std::get<TubeShape>(shape);
+    const Vec3 r = radial(tube.axis, tube.center);
+    faces.push_back({"inner", {r.norm() - tube.inner, -r.normalized()}});
+    faces.push_back({"outer", {tube.outer - r.norm(), r.normalized()}});
+    ends(tube.axis, tube.low, tube.high, "low", "high");
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::vector<std::string> solid_faces(const Primitive& shape, int dimension) {
+  std::vector<std::string> names;
+  for (const Named& named : faces_at(shape, Vec3::Ones(), dimension)) names.push_back(named.name);
+  return names;
+}
+
+Face nearest_face(const SolidBody& body, const Vec3& x, int dimension) {
+  Face nearest{1e300, Vec3::Zero()};
+  for (const Named& named : faces_at(body.shape.base, x, dimension)) {
+    const bool wet = body.wet.empty() || std::find(body.wet.begin(), body.wet.end(), named.name) != body.wet.end();
+    if (wet && named.face.depth < nearest.depth) nearest = named.face;
+  }
+  return nearest;
+}
+
+}  // namespace undex::sph

@@ -1,0 +1,67 @@
+// The passes of solids over pairs of the present: stresses and forces of bodies in an updated Lagrangian description, and
+// contact between bodies of either. Particles are copied into rows sorted by cell, and what they receive is copied back.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sph_fluid/pairs/blocks.hpp"
+#include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/pairs/pair_loop.hpp"
+#include "sph_solid/solid_loops.hpp"
+#include "sph_fluid/settings.hpp"
+#include "sph_solid/solid_particles.hpp"
+
+namespace undex::sph {
+
+class SolidPairs {
+ public:
+  /// A body's particles.
+  struct Range {
+    std::uint32_t begin, end;
+    double spacing, h;  ///< [m]
+    bool updated;       ///< does it work with the pairs of the present?
+    const SolidBody* body;
+  };
+  SolidPairs(const Settings& settings, std::vector<Range> ranges);
+  ~SolidPairs();
+  SolidPairs(const SolidPairs&) = delete;
+  SolidPairs& operator=(const SolidPairs&) = delete;
+
+  /// After a step dt [s] (zero: at the start): stresses of the updated bodies, and the forces on all. `acceleration`
+  /// [m/s^2] predicts velocities for the viscosity.
+  void add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+
+  /// Inverse deformation gradient of a particle of an updated body, d X_a/d x_b; kept where there is water to see its surface.
+  const Mat3& inverse_deformation(std::uint32_t particle) const { return inverse_deformation_[particle]; }
+  std::size_t memory_bytes() const;
+
+ private:
+  void pack(const SolidParticles& particles);
+  PairInput input(const std::vector<GroupView>& views);
+  void run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in);
+  void update_stresses(SolidParticles& particles, double dt);
+  void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+  void find_contact(SolidParticles& particles, bool started);
+  void hand_back(SolidParticles& particles) const;
+
+  const Settings& settings_;
+  SolidLoops loops_ = solid_loops();
+  std::vector<Range> ranges_;
+  std::vector<CellList> cells_;
+  std::vector<GroupView> views_;          ///< with the h of the bodies' own pairs
+  std::vector<GroupView> contact_views_;  ///< and of contact
+  BlockOrder blocks_;
+  bool updated_ = false;
+  std::vector<std::uint32_t> particle_;  ///< of each row
+  std::vector<double> x_, y_, z_;
+  std::vector<FluidRow> rows_;
+  std::vector<SolidRow> solid_;
+  std::vector<DeformationRow> deformation_;
+  std::vector<SumRow> sums_;
+  std::vector<Mat3> inverse_deformation_;  ///< empty where there is no water
+  std::vector<long long> interactions_;
+  std::vector<Scratch> scratch_;
+};
+
+}  // namespace undex::sph

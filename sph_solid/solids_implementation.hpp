@@ -1,0 +1,60 @@
+// What Solids is made of. Set-up and step are in solids.cpp, what others ask in solid_queries.cpp.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sph_solid/solid_pairs.hpp"
+#include "sph_solid/solid_particles.hpp"
+#include "sph_solid/solids.hpp"
+#include "sph_solid/total_lagrangian.hpp"
+
+namespace undex::sph {
+
+/// A body's particles: one range, in the order of the start.
+struct SolidGroup {
+  const SolidBody* body;
+  std::uint32_t begin, end;
+  double spacing, h;                            // [m]
+  std::unique_ptr<TotalLagrangian> lagrangian;  // null: updated Lagrangian
+};
+
+struct Solids::Implementation {
+  Settings settings;
+  SolidParticles particles;
+  std::vector<SolidGroup> groups;
+  std::unique_ptr<SolidPairs> pairs;              // null where no body is updated and none can touch another
+  std::vector<Vec3> acceleration, impulse_force;  // [m/s^2], [N]
+  std::vector<Vec3> wet_normal;                   // at the start, per wet particle
+  std::vector<std::uint32_t> wet;
+  PassTimers timers;
+  double time = 0, last_step = 0;
+  long steps = 0;
+  double external_work = 0, integrator_jumps = 0, integrator_held = 0, first_step = 0;
+
+  explicit Implementation(const Settings& settings);
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  // Set-up.
+  void fill();
+  void start_motion(const SolidGroup& group);
+  void start_stress(const SolidGroup& group);
+  void find_wet();
+
+  // The step: kick, drift, stresses and forces, kick (central differences, exact for a step that varies).
+  void step(double dt);
+  void meet_planes(double dt);
+  void find_forces(double dt);
+  void find_acceleration();
+  double held_back(double dt) const;
+
+  const SolidGroup& group_of(std::uint32_t particle) const;
+  std::uint32_t fastest() const;  // the particle that limits the step
+  /// Throws NumericalStop where a step's new stresses or forces cannot be gone on with. Positions and velocities are left in
+  /// the middle of the step, between its two kicks, and finite; stresses are those that went wrong.
+  void expect_sound(double dt);
+  std::string description_of(std::uint32_t particle, const char* what, double dt) const;
+};
+
+}  // namespace undex::sph

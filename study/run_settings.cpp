@@ -1,0 +1,108 @@
+#include "study/run_settings.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "scene/document.hpp"
+#include "scene/numbers.hpp"
+
+namespace undex::app {
+namespace {
+
+using scene::Entry;
+using scene::in_file_order;
+using scene::Node;
+
+void append(std::string& text, const char* separator, const std::string& part) {
+  if (!text.empty()) text += separator;
+  text += part;
+}
+
+std::string value_text(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::boolean: return node.boolean ? "true" : "false";
+    case Node::Kind::integer: return std::to_string(node.integer);
+    case Node::Kind::number: return scene::shortest(node.number);
+    case Node::Kind::text: return node.text;
+    default: break;
+  }
+  std::string text;
+  for (const Node& item : node.items) append(text, " ", value_text(item));
+  for (const Entry& entry : node.entries) append(text, " ", value_text(entry.node));
+  return text;
+}
+
+std::string text_at(const Node& table, const char* key) {
+  const Node* found = table.find(key);
+  return found ? value_text(*found) : "";
+}
+
+// What is said about a run, not computed by it.
+bool silent(const std::string& key) {
+  static constexpr std::array keys{"title", "probes", "output", "comparison", "threads"};
+  return std::find(keys.begin(), keys.end(), key) != keys.end() || key == "source" || key.ends_with(".source");
+}
+
+void flatten(const Node& node, const std::string& path, output::RunSettings& settings) {
+  for (const Entry* entry : in_file_order(node)) {
+    const std::string key = path.empty() ? entry->key : path + "." + entry->key;
+    if (silent(key)) continue;
+    const Node& value = entry->node;
+    if (entry->key == "cells" && value.kind == Node::Kind::table) {
+      std::string cells;
+      for (const Entry* part : in_file_order(value)) append(cells, "x", value_text(part->node));
+      settings.emplace_back(key, cells);
+    } else if (value.kind == Node::Kind::table) {
+      flatten(value, key, settings);
+    } else if (value.kind == Node::Kind::array && !value.items.empty() && value.items[0].kind == Node::Kind::table) {
+      for (std::size_t i = 0; i < value.items.size(); ++i) {
+        const std::string name = text_at(value.items[i], "name");
+        flatten(value.items[i], key + "." + (name.empty() ? std::to_string(i) : name), settings);
+      }
+    } else {
+      settings.emplace_back(key, value_text(value));
+    }
+  }
+}
+
+Vec3 vector_at(const Node& table, const char* key) {
+  Vec3 result = Vec3::Zero();
+  const Node* found = table.find(key);
+  for (std::size_t a = 0; found && a < std::min<std::size_t>(3, found->items.size()); ++a)
+    result[static_cast<int>(a)] = found->items[a].number;
+  return result;
+}
+
+}  // namespace
+
+Vec3 Axis::outward(const Vec3& point) const {
+  Vec3 radius = point - center;
+  radius[direction] = 0;
+  const double length = radius.norm();
+  return length > 0 ? Vec3(radius / length) : Vec3(Vec3::Zero());
+}
+
+ResolvedScene read_resolved(const std::string& text, const std::string& file) {
+  const Node root = scene::parse_toml(text, file);
+  ResolvedScene result;
+  if (const Node* dimension = root.find("dimension")) result.dimension = static_cast<int>(dimension->integer);
+  flatten(root, "", result.settings);
+  if (const Node* probes = root.find("probes"))
+    for (const Node& probe : probes->items) {
+      const std::string name = text_at(probe, "name");
+      result.probes[name] = {text_at(probe, "kind"), vector_at(probe, "point")};
+      result.probe_order.push_back(name);
+    }
+  if (const Node* comparison = root.find("comparison")) result.compared_probe = text_at(*comparison, "probe");
+  // What a structure or, in particles, the first solid is round about.
+  const Node *body = root.find("structure"), *solids = root.find("solids");
+  if (!body && solids && !solids->items.empty()) body = &solids->items[0];
+  if (const Node* shape = body ? body->find("shape") : nullptr) {
+    const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
+    if (type == "tube" || type == "rod" || type == "cylinder")
+      result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+  }
+  return result;
+}
+
+}  // namespace undex::app

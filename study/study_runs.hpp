@@ -1,0 +1,45 @@
+// The runs of a study on disk: which are there already, and what a row of its table says of each.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/comparison_table.hpp"
+#include "study/study_outcome.hpp"
+#include "study/study_table.hpp"
+#include "scene/study.hpp"
+
+namespace undex::app {
+
+/// What stands in the folder of a run.
+struct RunState {
+  bool finished = false;  ///< need not be computed again: done, stopped by the numerics, or by a limit that still holds
+  std::string reason;     ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
+  std::filesystem::path folder;
+  std::string status = "not run";  ///< see output::StudyRow
+  std::string message;
+  output::RunRecord record;
+  std::vector<double> cpu_times, wall_times;
+};
+
+/// Looks into `folder` for that run. A folder counts as this run's where its resolved.toml says the same (but for the title).
+RunState run_state(const std::filesystem::path& folder, const scene::Study& study, const scene::StudyRun& run);
+
+/// The states of all runs. A run that is not in the folder of its name may be in one whose name no run has (an axis was added,
+/// a label changed): it is found there.
+std::vector<RunState> run_states(const scene::Study& study, const std::filesystem::path& runs_folder);
+
+/// Folders in which no run of the study is.
+std::vector<std::filesystem::path> left_over(const std::vector<RunState>& states, const scene::Study& study,
+                                             const std::filesystem::path& runs_folder);
+
+/// An empty folder for a run; what an older run of a study left there goes. Throws UsageError where something else is there.
+void clear_run_folder(const std::filesystem::path& folder);
+
+/// Magnitudes of the study's errors of a run that is done (NaN: it does not have them). `reference` is its scene's table.
+std::vector<double> study_errors(const scene::Study& study, const output::RunRecord& record,
+                                 const std::optional<output::ReferenceTable>& reference);
+
+}  // namespace undex::app

@@ -1,0 +1,106 @@
+// Water and solids as one system of particles: momentum to round-off, work accounted for, and a solid that does not move is a
+// wall.
+#include "sph_fluid/lattice.hpp"
+#include "coupling/particle_system.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/sph_fluid/scenes.hpp"
+
+namespace undex::sph::testing {
+namespace {
+
+materials::Solid elastic(double density, double E) {
+  materials::Solid solid;
+  solid.name = "elastic";
+  solid.rho0 = density;
+  solid.shear_modulus = E / 2.6;
+  solid.pressure = materials::LinearPressure{E / 1.2};
+  solid.flow = materials::Elastic{};
+  return solid;
+}
+
+/// A drop of water flies against a block; nothing else is there.
+Settings drop(Description description, double density = 2700, double speed = 50) {
+  Settings s;
+  s.lattice.spacing = 0.005;
+  s.numerics.threads = 1;
+  s.numerics.scheme = SchemeName::monaghan;
+  s.numerics.courant = 0.3;
+  s.bodies = {body("water", box(Vec3(0, 0, 0), Vec3(0.03, 0.03, 0.06)), "water-tait")};
+  s.bodies[0].velocity = Vec3(0, 0, -speed);
+  SolidBody block;
+  block.name = "block";
+  block.shape = box(Vec3(0, 0, -0.03), Vec3(0.03, 0.03, 0));
+  block.material = elastic(density, 70e9);
+  block.description = description;
+  block.wet = {"z_high"};
+  s.solids = {block};
+  return s;
+}
+
+class Drop : public ::testing::TestWithParam<Description> {};
+INSTANTIATE_TEST_SUITE_P(Descriptions, Drop, ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
+                         [](const auto& one) { return one.param == Description::total_lagrangian ? "Total" : "Updated"; });
+
+TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
+  const Settings s = drop(GetParam());
+  Fluid fluid(s);
+  Solids solids(s);
+  ParticleSystem system(fluid, solids, true);
+  const Vec3 start = fluid.ledger().momentum + solids.ledger().momentum;
+  const Ledger first = fluid.ledger();
+  long sub_steps = 0, steps = 0;
+  while (fluid.time() < 30e-6 * (1 - 1e-12)) {
+    sub_steps += system.advance(30e-6).solid_steps;
+    ++steps;
+  }
+  EXPECT_DOUBLE_EQ(solids.time(), fluid.time());
+  EXPECT_GT(sub_steps, steps);  // aluminium needs shorter steps than water
+  const Vec3 moved = solids.ledger().momentum;
+  EXPECT_LT(moved[2], 0.2 * start[2]);  // it has been struck
+  EXPECT_LT((fluid.ledger().momentum + moved - start).norm(), 1e-12 * start.norm());
+  // Work given is work received, but for what the step's prediction of the wall's motion leaves.
+  const double given = fluid.ledger().wall_work, received = solids.ledger().external;
+  EXPECT_GT(received, 0.0);
+  EXPECT_NEAR(given / received, 1.0, 0.02);
+  EXPECT_NEAR(solids.ledger().balance() / received, 0.0, 0.01);
+  const Ledger l = fluid.ledger();
+  EXPECT_NEAR((l.kinetic + l.internal + l.dissipated + l.wall_work) / (first.kinetic + first.internal), 1.0, 0.01);
+}
+
+TEST_P(Drop, HeavyBlockIsARigidWall) {
+  const auto stagnation = [&](bool rigid) {
+    Settings s = drop(GetParam(), 2.7e7, 30);
+    std::vector<MovingWall> lining;
+    if (rigid) {
+      s.solids.clear();
+      Wall floor = box_wall(Vec3(-0.2, -0.2, 0), Vec3(0.2, 0.2, 0.2));
+      for (auto& [name, face] : floor.faces) face = name == "z_low" ? FaceCondition::free_slip : FaceCondition::open;
+      // The block's particles stand behind its face, and so do the floor's.
+      Settings lined = s;
+      lined.walls = {floor};
+      lined.numerics.scheme = SchemeName::paper;
+      lining = line_walls(lined);
+    }
+    Fluid fluid(s);
+    for (const MovingWall& wall : lining) fluid.add_moving_wall(wall);
+    if (rigid) {
+      while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
+    } else {
+      Solids solids(s);
+      ParticleSystem system(fluid, solids, true);
+      while (fluid.time() < 5e-6) system.advance(1.0);
+    }
+    return fluid.at(Vec3(0.015, 0.015, 0.004)).pressure;
+  };
+  const double wall = stagnation(true);
+  EXPECT_GT(wall, 30e6);  // water hammer: rho c v = 46 MPa
+  EXPECT_NEAR(stagnation(false) / wall, 1.0, 0.05);
+}
+
+}  // namespace
+}  // namespace undex::sph::testing

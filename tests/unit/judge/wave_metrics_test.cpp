@@ -1,0 +1,77 @@
+// Waves on a plate and in the open: exact answers of made-up histories, and Taylor's formulas.
+#include "judge/wave_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace undex::output {
+namespace {
+
+double get(const NamedNumbers& numbers, const std::string& name) {
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
+  if (found == numbers.end()) throw std::runtime_error("no metric " + name);
+  return found->second;
+}
+
+TEST(PlateMetrics, TrianglesGiveTheirExactAnswers) {
+  // 0 to 2 MPa at 1 us, back to 0 at 11 us; the plate gains 4 m/s until then and 5 m/s until 21 us.
+  const PlateHistories histories{{{0, 1e-6, 11e-6, 21e-6}, {0, 2e6, 0, 0}}, {{0, 11e-6, 21e-6}, {0, 4, 5}}};
+  const NamedNumbers metrics = plate_metrics(histories, 10.0, 1e6);
+  EXPECT_NEAR(get(metrics, "cavitation_s"), 11e-6, 1e-12);
+  EXPECT_NEAR(get(metrics, "impulse_pa_s"), 40.0, 1e-6);
+  EXPECT_NEAR(get(metrics, "end_impulse_pa_s"), 45.0, 1e-6);
+  EXPECT_NEAR(get(plate_metrics(histories, 10.0, 1e6, "_1d"), "cavitation_1d_s"), 11e-6, 1e-12);
+}
+
+TEST(PlateMetrics, OscillationOnTheWayIsNotPartOfTheFall) {
+  // Through 0.1 MPa at about 5 us and up again; the last fall runs from 0.2 MPa at 10 us to zero at 12 us.
+  const PlateHistories histories{{{0, 1e-6, 5e-6, 6e-6, 10e-6, 12e-6, 20e-6}, {0, 2e6, 0.09e6, 0.2e6, 0.2e6, 0, 0}},
+                                 {{0, 20e-6}, {0, 1}}};
+  EXPECT_NEAR(get(plate_metrics(histories, 1.0, 1e6), "cavitation_s"), 12e-6, 1e-12);
+}
+
+TEST(PlateMetrics, TaylorsPressureCavitatesWhenItShould) {
+  const double theta = 20e-6, z = 1.794, p0 = 1e6, exact = theta * std::log(z) / (z - 1);
+  PlateHistories histories;
+  histories.pressure.append(-1e-9, 0.0);
+  for (int i = 0; i <= 2000; ++i) {
+    const double t = 1.2 * exact * i / 2000, a = t / theta;
+    const double p = 2 * p0 * (std::exp(-a) - z * (std::exp(-a) - std::exp(-z * a)) / (z - 1));
+    histories.pressure.append(t, std::max(p, 0.0));
+    histories.velocity.append(t, 1.0);
+  }
+  EXPECT_NEAR(get(plate_metrics(histories, 1.0, p0), "cavitation_s") / exact, 1.0, 0.01);  // the line is a little early
+}
+
+TEST(PlateMetrics, WhatDidNotHappenIsNaN) {
+  for (const PlateHistories& histories : {PlateHistories{{{0, 1e-5}, {0, 2e6}}, {{0, 1e-5}, {0, 1}}},
+                                          PlateHistories{{{0, 1e-5}, {0, 1e3}}, {{0, 1e-5}, {0, 1}}}, PlateHistories{}})
+    for (const auto& [name, value] : plate_metrics(histories, 1.0, 1e6)) EXPECT_TRUE(std::isnan(value)) << name;
+  EXPECT_THROW(plate_metrics({{{0, 1e-5}, {0, std::nan("")}}, {}}, 1.0, 1e6), std::invalid_argument);
+}
+
+TEST(BlastMetrics, TrianglesGiveTheirExactAnswers) {
+  const Series run{{0, 10e-6, 12e-6, 22e-6, 40e-6}, {0, 0, 8e6, 0, 0}},
+      reference{{0, 10e-6, 11e-6, 21e-6, 40e-6}, {0, 0, 1e7, 0, 0}};
+  const NamedNumbers metrics = blast_metrics(run, reference, "r4", 0, 40e-6);
+  EXPECT_DOUBLE_EQ(get(metrics, "peak_r4_pa"), 8e6);
+  EXPECT_DOUBLE_EQ(get(metrics, "peak_1d_r4_pa"), 1e7);
+  EXPECT_NEAR(get(metrics, "arrival_r4_s"), 11e-6, 1e-12);
+  EXPECT_NEAR(get(metrics, "arrival_1d_r4_s"), 10.5e-6, 1e-12);
+  EXPECT_NEAR(get(metrics, "impulse_r4_pa_s"), 48, 1e-9);
+  EXPECT_NEAR(get(metrics, "impulse_1d_r4_pa_s"), 55, 1e-9);
+  EXPECT_EQ(get(blast_metrics(reference, reference, "r4", 0, 40e-6), "l1_pressure_r4"), 0.0);
+  EXPECT_GT(get(metrics, "l1_pressure_r4"), (55 - 48) / 40e-6 / 1e7 - 1e-12);  // at least the impulses' difference
+}
+
+TEST(BlastMetrics, OutsideOfTheHistoriesIsNaN) {
+  const Series run{{0, 10e-6}, {0, 1e6}}, reference{{0, 40e-6}, {0, 1e6}};
+  EXPECT_TRUE(std::isnan(get(blast_metrics(run, reference, "a", 0, 40e-6), "l1_pressure_a")));
+  EXPECT_TRUE(std::isnan(get(blast_metrics(run, reference, "a", 0, 40e-6), "impulse_a_pa_s")));
+}
+
+}  // namespace
+}  // namespace undex::output
