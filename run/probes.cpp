@@ -81,10 +81,13 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     } else if (probe.kind == scene::Probe::Kind::structure) {
       material = simulation.structure()->locate(probe.point);
     }
-    const std::size_t count = columns.size();
     output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back(
-        {probe, foot, material, solid, std::move(columns), std::move(history), std::vector<std::vector<double>>(count)});
+    channels_.push_back({.probe = probe,
+                         .foot = foot,
+                         .material = material,
+                         .solid = solid,
+                         .history = std::move(history),
+                         .samples = output::Samples(std::move(columns))});
   }
 }
 
@@ -111,7 +114,7 @@ std::vector<double> Probes::read(const Channel& channel, const Simulation& simul
 
 void Probes::append(Channel& channel, const std::vector<double>& row) {
   channel.history.append(row);
-  for (std::size_t c = 0; c < row.size(); ++c) channel.samples[c].push_back(row[c]);
+  channel.samples.append(row);
 }
 
 void Probes::sample(const Simulation& simulation) {
@@ -131,12 +134,10 @@ void Probes::flush() {
   for (Channel& channel : channels_) channel.history.flush();
 }
 
-output::Series Probes::series(const std::string& probe, const std::string& column) const {
-  for (const Channel& channel : channels_)
-    if (channel.probe.name == probe)
-      for (std::size_t c = 1; c < channel.columns.size(); ++c)
-        if (channel.columns[c].name == column) return {channel.samples[0], channel.samples[c]};
-  return {};
+std::map<std::string, output::Samples> Probes::samples() const {
+  std::map<std::string, output::Samples> all;
+  for (const Channel& channel : channels_) all[channel.probe.name] = channel.samples;
+  return all;
 }
 
 }  // namespace undex::run

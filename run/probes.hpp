@@ -1,4 +1,4 @@
-// The histories of a run: one CSV file per probe, and the samples kept for the comparison at the end.
+// The histories of a run: one CSV file per probe, and the samples as evidence for a verdict.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 #include "run/simulation.hpp"
 #include "output/history.hpp"
-#include "output/series.hpp"
+#include "output/samples.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
@@ -26,8 +26,8 @@ class Probes {
   void sample_before(const Simulation& simulation, double time);
   void flush();
 
-  /// Samples of one column ("pressure", "displacement_x", ...) of a probe; empty where there is none.
-  output::Series series(const std::string& probe, const std::string& column) const;
+  /// What has been sampled, by the probe's name.
+  std::map<std::string, output::Samples> samples() const;
 
  private:
   struct Channel {
@@ -35,9 +35,8 @@ class Probes {
     std::optional<coupling::WetWall::Foot> foot;    ///< of wall probes on a moving wall
     std::optional<fem::Structure::Probe> material;  ///< of structure probes on finite elements
     std::optional<sph::Solids::Point> solid;        ///< of structure probes on solids, and of wall probes at their surface
-    std::vector<output::Column> columns;
     output::History history;
-    std::vector<std::vector<double>> samples;  ///< one series per column, time first
+    output::Samples samples;
   };
   std::vector<double> read(const Channel& channel, const Simulation& simulation) const;
   static void append(Channel& channel, const std::vector<double>& row);
