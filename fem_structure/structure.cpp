@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/bilinear_patch.hpp"
 #include "core/errors.hpp"
 #include "fem_structure/elements.hpp"
 #include "fem_structure/grid.hpp"
@@ -144,13 +145,9 @@ std::array<Vec3, 4> pressed(const std::array<Vec3, 4>& x) {
   force.fill(Vec3::Zero());
   for (double v : {near, 1.0 - near})
     for (double u : {near, 1.0 - near}) {
-      const Vec3 along_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
-      const Vec3 along_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
-      const Vec3 area = 0.25 * along_u.cross(along_v);
-      force[0] += (1 - u) * (1 - v) * area;
-      force[1] += u * (1 - v) * area;
-      force[2] += u * v * area;
-      force[3] += (1 - u) * v * area;
+      const Vec3 area = 0.25 * slope_along_u(x, v).cross(slope_along_v(x, u));
+      const std::array<double, 4> weight = bilinear_weights(u, v);
+      for (int node = 0; node < 4; ++node) force[node] += weight[node] * area;
     }
   return force;
 }
