@@ -86,13 +86,13 @@ output::NamedNumbers tube(const scene::Scene& scene, const run::Probes& probes) 
 }
 
 output::NamedNumbers taylor_bar(const scene::Scene& scene, const run::Simulation& simulation) {
+  const auto x = simulation.bodies().front()->positions();
   if (scene.structure) {
     const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
-    return output::taylor_bar_metrics(simulation.structure()->fields().position, rod.axis, rod.center, rod.high - rod.low);
+    return output::taylor_bar_metrics({x.begin(), x.end()}, rod.axis, rod.center, rod.high - rod.low);
   }
   const sph::SolidBody& body = scene.fluid.solids.front();
   const auto& rod = std::get<Cylinder>(body.shape.base);
-  const auto x = simulation.solids()->positions();
   return output::taylor_bar_metrics({x.begin(), x.end()}, rod.axis, rod.center, rod.high - rod.low,
                                     0.5 * body.spacing.value_or(scene.fluid.lattice.spacing));
 }

@@ -100,14 +100,12 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
     record.clamps = {
         {"density", clamps.density}, {"smoothing", clamps.smoothing}, {"filling", clamps.filling}, {"energy", clamps.energy}};
   }
-  if (const sph::Solids* solids = simulation.solids()) {
-    record.particles += std::int64_t(solids->particle_count());
-    record.particle_updates += std::int64_t(solids->particle_count()) * solids->steps();
-    record.solver_memory_bytes += std::int64_t(solids->memory_bytes());
-  }
-  if (const fem::Structure* structure = simulation.structure()) {
-    record.cells = std::int64_t(structure->cell_count());
-    record.solver_memory_bytes += std::int64_t(structure->memory_bytes());
+  for (const auto& body : simulation.bodies()) {
+    const auto particles = std::int64_t(body->size().particles);
+    record.particles += particles;
+    record.particle_updates += particles * body->steps();
+    record.cells += std::int64_t(body->size().cells);
+    record.solver_memory_bytes += std::int64_t(body->memory_bytes());
   }
   record.peak_memory_bytes = output::peak_memory_bytes();
   record.mass_error = simulation.mass_error();
@@ -118,22 +116,6 @@ output::RunRecord record_of(const scene::Scene& scene, const RunOptions& options
   record.interface_impulse_error = simulation.interface_impulse_error();
   record.passes = simulation.passes();
   return record;
-}
-
-/// Which particle is the fastest, and where; nothing where there are no particles.
-template <class Particles>
-std::string fastest_of(const Particles& particles) {
-  const std::vector<double> v = particles.field("velocity"), x = particles.field("position"), id = particles.field("id");
-  const auto square = [&](std::size_t i) {
-    return v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2];
-  };
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < id.size(); ++k)
-    if (square(k) > square(i)) i = k;
-  char text[200];
-  std::snprintf(text, sizeof text, "; the fastest is particle %.0f with %.3g m/s at (%.5g, %.5g, %.5g) m", id[i],
-                std::sqrt(square(i)), x[3 * i], x[3 * i + 1], x[3 * i + 2]);
-  return text;
 }
 
 /// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
@@ -148,11 +130,7 @@ void expect_energy(const Simulation& simulation, bool& was_off) {
   std::snprintf(text, sizeof text,
                 "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv)%s; a smaller scheme.courant (or "
                 "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
-                simulation.time(), 100.0 * error,
-                (simulation.fluid()    ? fastest_of(*simulation.fluid())
-                 : simulation.solids() ? fastest_of(*simulation.solids())
-                                       : std::string())
-                    .c_str());
+                simulation.time(), 100.0 * error, simulation.fastest_particle().c_str());
   throw NumericalStop(text);
 }
 
@@ -207,7 +185,7 @@ int compute(const scene::Scene& given, const RunOptions& options) {
   std::filesystem::remove(folder / "summary.json");  // an older run's must not pass for this one's
   Probes probes(scene, simulation, folder);
   EnergyHistory energy(folder, !scene.fluid.gravity.isZero());
-  Snapshots snapshots(scene, folder);
+  Snapshots snapshots(scene, simulation, folder);
   Progress progress(simulation.time(), scene.end_time, options.verbosity);
   catch_signals();
 
@@ -244,14 +222,14 @@ int compute(const scene::Scene& given, const RunOptions& options) {
       next_history = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
     }
     if (now >= next_snapshot) {
-      snapshots.write(simulation);
+      snapshots.write();
       next_snapshot = snapshots.next_after(simulation.time());
     }
   };
 
   bool energy_off = false, step_done = true;
   try {
-    if (simulation.time() > 0) probes.sample_before(simulation, 0.0);
+    if (simulation.time() > 0) probes.sample_before(0.0);
     observe();
     while (simulation.time() < scene.end_time * (1 - 1e-12)) {
       step_done = false;
@@ -271,7 +249,7 @@ int compute(const scene::Scene& given, const RunOptions& options) {
       char where[80];
       std::snprintf(where, sizeof where, "; fields/ ends with the %s, at %.6g s",
                     step_done ? "state at the stop" : "last sound state", simulation.time());
-      if (snapshots.write_at_stop(simulation)) text += where;
+      if (snapshots.write_at_stop()) text += where;
     } catch (const FileError& error) {
       text += std::string("; its state could not be written: ") + error.what();
     }
