@@ -94,7 +94,6 @@ void read_scheme(const TableReader& top, Draft& draft) {
                        shortest(numerics.alpha_min) +
                        " with scheme.name = \"monaghan_switch\": raise "
                        "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
-  table.read("shifting", numerics.shifting);
   table.read_choice<sph::Integrator>("integrator", numerics.integrator,
                                      {{"leapfrog", sph::Integrator::leapfrog}, {"ssp_rk3", sph::Integrator::ssp_rk3}});
   numerics.courant = sph::default_courant(numerics.integrator, numerics.kernel);
@@ -104,10 +103,6 @@ void read_scheme(const TableReader& top, Draft& draft) {
     table.complain("local_steps",
                    "scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; "
                    "leave one of them out");
-  if (numerics.local_steps && numerics.shifting > 0.0)
-    table.complain("local_steps",
-                   "scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one "
-                   "for all; leave one of them out");
   table.read("signal", numerics.signal);
   table.read("h_low", numerics.h_low);
   table.read("h_high", numerics.h_high);

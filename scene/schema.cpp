@@ -53,9 +53,9 @@ std::vector<Section> make_schema() {
       {"symmetry", {word("planes")}},
       {"scheme",
        {word("name"), word("kernel"), word("precision"), between("eta", 0.8, 3), between("alpha", 0, 100),
-        between("beta", 0, 1000), between("alpha_min", 0, 100), between("shifting", 0, 1), word("integrator"),
-        above("courant", 0, 2), above("fixed_step", 0, 1, "s"), word("local_steps"), between("signal", 0, 0.1),
-        between("h_low", 0.1, 1), between("h_high", 1, 20)}},
+        between("beta", 0, 1000), between("alpha_min", 0, 100), word("integrator"), above("courant", 0, 2),
+        above("fixed_step", 0, 1, "s"), word("local_steps"), between("signal", 0, 0.1), between("h_low", 0.1, 1),
+        between("h_high", 1, 20)}},
 
       {"start",
        {word("kind"), word("body"), above("time", 0, 1e3, "s"), word("axis"), word("towards"), position("front"),

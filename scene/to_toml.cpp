@@ -346,7 +346,6 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
   writer.put("alpha", numerics.alpha);
   writer.put("beta", numerics.beta);
   writer.put("alpha_min", numerics.alpha_min);
-  writer.put("shifting", numerics.shifting);
   writer.put("integrator", numerics.integrator == sph::Integrator::ssp_rk3 ? "ssp_rk3" : "leapfrog");
   writer.put("courant", numerics.courant);
   writer.put("fixed_step", numerics.fixed_step);

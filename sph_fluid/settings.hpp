@@ -167,12 +167,10 @@ struct Numerics {
   double alpha = 1.0;                  ///< Monaghan's linear coefficient (eq. 6); with a switch, its upper bound
   double beta = 10.0;                  ///< and the quadratic one; with a switch, where alpha is at its bound
   double alpha_min = 0.1;              ///< with a switch: alpha's lower bound
-  double shifting = 0.0;  ///< share of the usual shift of particles towards uniform concentration, 0..1 (shifting.hpp)
   Integrator integrator = Integrator::leapfrog;
   double courant = 0.35;             ///< dt = courant * min over particles of h/(signal speed)
   std::optional<double> fixed_step;  ///< [s]
-  bool local_steps =
-      false;  ///< may bodies with a much shorter step take substeps (leapfrog without fixed_step and shifting only)?
+  bool local_steps = false;          ///< may bodies with a much shorter step take substeps (leapfrog without fixed_step only)?
   double h_low = 0.9, h_high = 3.0;  ///< bounds of h/h0 where it follows density
   /// Particles at rest are worked on from when a signal of this share of the sound speed (or of the density) comes within
   /// reach; 0: always.

@@ -104,7 +104,7 @@ struct PairH {
 
 /// What the pairs of one loop have in common.
 struct PairKind {
-  bool constant_h, gas, foreign, alike;
+  bool constant_h, gas, alike;
 };
 
 /// One pass over one cluster: its candidates, the pairs with them, and the sums.
@@ -167,7 +167,6 @@ class ClusterWork {
     PairKind kind{};
     kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
     kind.gas = own_.gas || other.gas;
-    kind.foreign = (images ? other.images_of : g) != cluster_.group;
     kind.alike = other.material == own_.material;
     // A pair's h is the mean of two.
     const double reach = kernel_.support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
@@ -206,7 +205,7 @@ class ClusterWork {
   }
 
   void with_walls() {
-    const PairKind kind{.constant_h = true, .gas = own_.gas, .foreign = false, .alike = true};
+    const PairKind kind{.constant_h = true, .gas = own_.gas, .alike = true};
     const double reach = kernel_.support * h_cluster_;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       list_.size = 0;
@@ -263,7 +262,6 @@ class ClusterWork {
     V met{};
     Pair<V> pair;
     pair.gas = kind.gas;
-    pair.foreign = kind.foreign;
     pair.alike = kind.alike;
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());

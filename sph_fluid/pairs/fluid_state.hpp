@@ -57,7 +57,6 @@ struct Pair {
   V dx, dy, dz, r2, h, F;
   Mask<Element<V>> near;  ///< within the kernel's support; F is zero elsewhere
   bool gas;               ///< is one of them gas?
-  bool foreign;           ///< are they of different bodies?
   bool alike;             ///< are they of one material?
 };
 

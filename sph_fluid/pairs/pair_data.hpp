@@ -44,11 +44,6 @@ struct ViscosityRow {
   double alpha;
 };
 
-/// What shifting.hpp learns of a particle's surroundings: gradient of the concentration [1/m], with what holds it back.
-struct ConcentrationRow {
-  float x, y, z;
-};
-
 /// What pairs of solid particles read beside FluidRow [Pa]: sigma B, row by row, B being the correction of kernel gradients
 /// (solid_schemes.hpp); sigma itself: xx, yy, zz, yz, zx, xy; the rate of strain, in the same order [1/s]; and
 /// the speed of shear waves [m/s].
@@ -165,8 +160,7 @@ struct PairInput {
   GradientRow* gradient;  ///< null where the scheme has no use for them, as the next two
   CorrectedRow* corrected;
   const ViscosityRow* viscosity;
-  ConcentrationRow* concentration;  ///< of the shifting's pass
-  const SolidRow* solid;            ///< of the solids' passes, as the next
+  const SolidRow* solid;  ///< of the solids' passes, as the next
   DeformationRow* deformation;
   double artificial_stress, spacing;  ///< of the solids' forces
   double contact_damping;             ///< share of the acoustic impedance

@@ -16,8 +16,6 @@ struct PairLoops {
   void (*gradients)(const PairInput&, const PairOutput&);
   /// Adds every pair to the sums of `out`, which the caller has set to zero.
   void (*rates)(const PairInput&, const PairOutput&);
-  /// Fills PairInput::concentration.
-  void (*concentration)(const PairInput&, const PairOutput&);
 
   /// Does a pass for gradients come before the fluxes?
   bool reconstructs() const { return gradients != nullptr; }

@@ -31,8 +31,6 @@ using Pass = void (*)(const PairInput&, const PairOutput&);
   template <class T>                                                                                              \
   void riemann_corrected_rates(const PairInput&, const PairOutput&);                                              \
   template <class T>                                                                                              \
-  void concentration(const PairInput&, const PairOutput&);                                                        \
-  template <class T>                                                                                              \
   Pass rates(KernelName kernel, SchemeName scheme) {                                                              \
     switch (scheme) {                                                                                             \
       case SchemeName::paper: return &paper_rates<T>;                                                             \
@@ -59,8 +57,7 @@ using Pass = void (*)(const PairInput&, const PairOutput&);
   PairLoops loops(KernelName kernel, SchemeName scheme, Precision precision) {                                    \
     return {second_row(scheme), kernel_choice(kernel, 1).support,                                                 \
             precision == Precision::mixed ? gradients<float>(kernel, scheme) : gradients<double>(kernel, scheme), \
-            precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme),         \
-            precision == Precision::mixed ? &concentration<float> : &concentration<double>};                      \
+            precision == Precision::mixed ? rates<float>(kernel, scheme) : rates<double>(kernel, scheme)};        \
   }                                                                                                               \
   }
 

@@ -52,8 +52,7 @@ struct Particles {
   // Of schemes that have a use for them, as the next: what pairs read beside `predicted`.
   std::vector<GradientRow> gradient;
   std::vector<CorrectedRow> corrected;
-  std::vector<ViscosityRow> viscosity;          ///< a state
-  std::vector<ConcentrationRow> concentration;  ///< at the last evaluation; where particles are shifted
+  std::vector<ViscosityRow> viscosity;  ///< a state
 
   std::size_t size() const { return x.size(); }
 
@@ -66,7 +65,7 @@ struct Particles {
 
   /// Room for the rest, once the state is there: until then set-up needs memory of its own. Coefficients of viscosity start
   /// from `alpha`.
-  void make_room(SecondRow second, double alpha, bool shifted, bool of_stages) {
+  void make_room(SecondRow second, double alpha, bool of_stages) {
     const std::size_t n = size();
     rate.assign(n, SumRow{});
     if (of_stages) start.resize(n);
@@ -75,7 +74,6 @@ struct Particles {
     if (second == SecondRow::gradient) gradient.resize(n);
     if (second == SecondRow::corrected) corrected.resize(n);
     if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
-    if (shifted) concentration.assign(n, {});
   }
 
   /// Puts the particles of first .. first + order.size() into the order given by their present indices.
@@ -133,7 +131,7 @@ struct Particles {
     return bytes + id.capacity() * sizeof(std::uint32_t) + rate.capacity() * sizeof(SumRow) +
            earlier.capacity() * sizeof(EarlierRates) + start.capacity() * sizeof(StepStart) +
            predicted.capacity() * sizeof(FluidRow) + gradient.capacity() * sizeof(GradientRow) +
-           corrected.capacity() * sizeof(CorrectedRow) + concentration.capacity() * sizeof(ConcentrationRow) +
+           corrected.capacity() * sizeof(CorrectedRow) +
            (viscosity.capacity() + start_viscosity.capacity()) * sizeof(ViscosityRow);
   }
 

@@ -184,8 +184,6 @@ struct Fluid::Implementation : ParticleSet {
     double decay, source;
   };
   SwitchRates switch_rates(std::uint32_t i) const;
-  /// Moves particles down the gradient of their concentration (shifting.hpp); no other part of their state changes.
-  void shift(double dt);
   void sort();
   /// State predicted for the end of the step, pressure and sound speed, and the smoothing length. The prediction adds
   /// `half` times the last rates and `bend` times their last change to the half-kicked state.
@@ -211,7 +209,7 @@ struct Fluid::Implementation : ParticleSet {
   void step_ssp_rk3(double dt);
   /// From u and its rates to (1 - share) u_start + share (u + dt L(u)); `weight` is that of these rates in the step. False: a
   /// particle is beyond `fastest` now.
-  bool stage(double dt, double share, double weight, bool shifts);
+  bool stage(double dt, double share, double weight);
   std::vector<WallMotion> wall_motions() const;
   /// The wall at a share of the step, on the cubic through both its ends.
   static WallMotion between(const WallMotion& before, const WallMotion& after, double dt, double share);
@@ -220,7 +218,7 @@ struct Fluid::Implementation : ParticleSet {
   // Steps of bodies' own: local_steps.cpp. The whole set then holds the slow pairs' rates.
   bool may_part() const {
     const Numerics& n = settings.numerics;
-    return n.local_steps && n.integrator == Integrator::leapfrog && !n.fixed_step && !(n.shifting > 0.0) && groups.size() > 1;
+    return n.local_steps && n.integrator == Integrator::leapfrog && !n.fixed_step && groups.size() > 1;
   }
   /// Parts the bodies into fast and slow ones, or joins them, where that saves work; rates are then evaluated anew.
   /// Returns whether anything has changed.

@@ -31,7 +31,7 @@ Fluid::Implementation::Implementation(const Settings& s)
   fill();
   lifted = fall();
   pack_walls();
-  particles.make_room(loops.second, s.numerics.alpha, s.numerics.shifting > 0.0, s.numerics.integrator == Integrator::ssp_rk3);
+  particles.make_room(loops.second, s.numerics.alpha, s.numerics.integrator == Integrator::ssp_rk3);
   evaluate(0.0, 0.0);
   watch_for_signals();
 }

@@ -106,7 +106,6 @@ void Fluid::Implementation::drift(double dt) {
     p.y[i] += dt * p.vy[i];
     p.z[i] += dt * p.vz[i];
   }
-  if (settings.numerics.shifting > 0.0) shift(dt);
 }
 
 void Fluid::Implementation::cross_mirrors() {
@@ -213,26 +212,6 @@ void Fluid::Implementation::advance_viscosity(double dt) {
       const double goal = (decay * low + source * high) / (decay + source);
       double& alpha = particles.viscosity[i].alpha;
       alpha = goal + (alpha - goal) * std::exp(-(decay + source) * dt);
-    }
-  }
-}
-
-void Fluid::Implementation::shift(double dt) {
-  const double share = settings.numerics.shifting;
-  Particles& p = particles;
-  for (const Group& group : groups) {
-    // Diffusion with 2 h times a speed (Skillen et al. 2013, Comput. Methods Appl. Mech. Eng. 265, 163), here that of the
-    // neighbour who comes closest: the same for every observer, and none at rest. At most a twentieth of a spacing a step.
-    const double farthest = 0.05 * share * group.spacing;
-#pragma omp parallel for schedule(static)
-    for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      const ConcentrationRow& c = p.concentration[i];
-      const Vec3 wanted = -2.0 * share * p.predicted[i].h * p.rate[i].closing * dt * Vec3(c.x, c.y, c.z);
-      const double length = wanted.norm();
-      const Vec3 step = length > farthest ? Vec3(farthest / length * wanted) : wanted;
-      p.x[i] += step[0];
-      p.y[i] += step[1];
-      p.z[i] += step[2];
     }
   }
 }
@@ -459,7 +438,6 @@ PairInput Fluid::Implementation::pair_input() {
   in.gradient = particles.gradient.data();
   in.corrected = particles.corrected.data();
   in.viscosity = particles.viscosity.data();
-  in.concentration = particles.concentration.data();
   in.groups = views.data();
   in.group_count = int(views.size());
   images.describe(in);
@@ -482,7 +460,6 @@ void Fluid::Implementation::pairs(const PairInput& in) {
   interactions.resize(blocks.block_count());
   std::fill(wall_force.begin(), wall_force.end(), ForceRow{});
   const PairOutput out{particles.rate.data(), moving.empty() ? nullptr : wall_force.data(), images.sums(), interactions.data()};
-  if (settings.numerics.shifting > 0.0) loops.concentration(in, out);
   if (loops.gradients) {
     loops.gradients(in, out);
     images.mirror_gradients(particles);

@@ -3,7 +3,7 @@
 //   u1 = u + dt L(u),   u2 = 3/4 u + 1/4 (u1 + dt L(u1)),   u' = 1/3 u + 2/3 (u2 + dt L(u2))
 // that is u' = u + dt (L(u)/6 + L(u1)/6 + 2 L(u2)/3): what walls receive is booked with these weights, so nothing is lost.
 // The logarithm keeps densities positive. Rates of the step's end are those of the next step's beginning: three evaluations.
-// Particles are shifted once, with the last stage. A step of which a stage goes wrong is not taken.
+// A step of which a stage goes wrong is not taken.
 #include <algorithm>
 #include <cmath>
 
@@ -16,10 +16,9 @@ void Fluid::Implementation::step_ssp_rk3(double dt) {
   const std::vector<WallMotion> walls_before = walls_seen, walls_after = wall_motions();
   const struct {
     double share, weight, at;  // see stage(); time of the stage's result as a share of the step
-    bool shifts;
-  } stages[] = {{1.0, 1.0 / 6.0, 1.0, false}, {0.25, 1.0 / 6.0, 0.5, false}, {2.0 / 3.0, 2.0 / 3.0, 1.0, true}};
-  for (const auto& [share, weight, at, shifts] : stages) {
-    require(stage(dt, share, weight, shifts && settings.numerics.shifting > 0.0));
+  } stages[] = {{1.0, 1.0 / 6.0, 1.0}, {0.25, 1.0 / 6.0, 0.5}, {2.0 / 3.0, 2.0 / 3.0, 1.0}};
+  for (const auto& [share, weight, at] : stages) {
+    require(stage(dt, share, weight));
     evaluation_time = time + at * dt;
     for (std::size_t w = 0; w < moving.size(); ++w)
       show(moving[w], at < 1.0 ? between(walls_before[w], walls_after[w], dt, at) : walls_after[w]);
@@ -28,7 +27,7 @@ void Fluid::Implementation::step_ssp_rk3(double dt) {
   }
 }
 
-bool Fluid::Implementation::stage(double dt, double share, double weight, bool shifts) {
+bool Fluid::Implementation::stage(double dt, double share, double weight) {
   const auto timer = timers.measure("integration");
   book_exchange(weight * dt);
   Particles& p = particles;
@@ -54,7 +53,6 @@ bool Fluid::Implementation::stage(double dt, double share, double weight, bool s
       alpha = std::clamp(alpha, low, high);  // left at steps beyond the limits only
     }
   }
-  if (shifts) shift(dt);
   cross_mirrors();
   return largest_square < fastest * fastest;
 }

@@ -56,7 +56,6 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   expect("[scheme]", "alpha", numerics.alpha);
   expect("[scheme]", "beta", numerics.beta);
   expect("[scheme]", "alpha_min", numerics.alpha_min);
-  expect("[scheme]", "shifting", numerics.shifting);
   expect("[scheme]", "courant", numerics.courant);
   expect("[scheme]", "signal", numerics.signal);
   expect("[scheme]", "h_low", numerics.h_low);

@@ -63,10 +63,6 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nintegrator = \"ssp_rk3\"\nlocal_steps = true"),
        "8:15: scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; leave one of "
        "them out\n"},
-      {"local steps with shifting",
-       with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nshifting = 0.5\nlocal_steps = true"),
-       "8:15: scheme.local_steps = true needs scheme.shifting = 0: particles are shifted once in a step that is one for all; "
-       "leave one of them out\n"},
       {"too small for single precision", with(two_gases, "spacing = 0.01", "spacing = 1e-5\n[scheme]\nprecision = \"mixed\""),
        "7:13: scheme.precision = \"mixed\" needs a resolution.spacing of at least 2e-05 m: finer lengths leave the range of "
        "single precision; take \"full\"\n"},

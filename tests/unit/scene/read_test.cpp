@@ -160,7 +160,6 @@ TEST(Read, SchemesBringTheirDefaults) {
   EXPECT_EQ(switched.alpha, 1.0);
   EXPECT_EQ(switched.alpha_min, 0.1);
   EXPECT_EQ(switched.beta, 2.0);
-  EXPECT_EQ(switched.shifting, 0.0);
 }
 
 TEST(Read, CellSizeGivesTheCountsOfTheWholeTube) {

@@ -84,7 +84,6 @@ eta = 1.25
 alpha = 0.5
 beta = 2
 alpha_min = 0.2
-shifting = 0.75
 courant = 0.2
 fixed_step = 1e-8
 signal = 1e-6
@@ -341,7 +340,6 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.fluid.numerics.scheme, sph::SchemeName::monaghan);
   EXPECT_EQ(scene.fluid.numerics.eta, 1.25);
   EXPECT_EQ(scene.fluid.numerics.alpha_min, 0.2);
-  EXPECT_EQ(scene.fluid.numerics.shifting, 0.75);
   EXPECT_EQ(scene.fluid.numerics.fixed_step, 1e-8);
   EXPECT_EQ(scene.fluid.numerics.h_high, 3);
   const sph::Body& charge = scene.fluid.bodies[0];

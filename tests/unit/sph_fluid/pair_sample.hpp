@@ -74,7 +74,6 @@ struct Result {
   std::vector<Particle> particles;
   std::vector<WallParticle> walls;
   std::vector<GradientRow> gradients;  ///< of the Riemann scheme
-  std::vector<ConcentrationRow> concentrations;
   std::vector<Rate> rates, wall_forces;
   long long interactions = 0;
 };
@@ -155,8 +154,6 @@ inline Result run(const Sample& sample) {
   std::vector<ViscosityRow> viscosity(loops.second == SecondRow::viscosity ? n : 0);
   for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i].alpha = alpha_of(sample, result.particles[i]);
   in.viscosity = viscosity.data();
-  result.concentrations.resize(n);
-  in.concentration = result.concentrations.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
   in.wall_x = wx.data();
@@ -177,7 +174,6 @@ inline Result run(const Sample& sample) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
   const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, nullptr, interactions.data()};
-  loops.concentration(in, out);
   if (loops.gradients) loops.gradients(in, out);
   loops.rates(in, out);
   omp_set_num_threads(before);

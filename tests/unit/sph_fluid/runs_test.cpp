@@ -118,7 +118,6 @@ TEST(Runs, RestIsLeftOutExactly) {
       SCOPED_TRACE(name);
       if (axis != 1 && scheme != SchemeName::monaghan && scheme != SchemeName::riemann) continue;
       Settings settings = long_tank(scheme, axis);
-      settings.numerics.shifting = axis == 1 ? 0.5 : 0.0;
       Fluid partly(settings);
       settings.numerics.signal = 0.0;
       Fluid whole(settings);
@@ -190,9 +189,6 @@ TEST(Runs, OnlyTheWorkThatASceneNeeds) {
   EXPECT_NEAR(bytes(Fluid(settings)) - least, sizeof(ViscosityRow), 1.0);
   settings.numerics.scheme = SchemeName::paper;
   EXPECT_NEAR(bytes(Fluid(settings)) - least, 0.0, 1.0);
-  settings.numerics.shifting = 1.0;
-  EXPECT_NEAR(bytes(Fluid(settings)) - least, sizeof(ConcentrationRow), 1.0);
-  settings.numerics.shifting = 0.0;
   settings.numerics.scheme = SchemeName::monaghan;
   settings.bodies = {body("gas", box(low, high), "air")};
   EXPECT_NEAR(bytes(Fluid(settings)) - least, sizeof(double), 1.0);  // an energy

@@ -293,187 +293,47 @@ TEST(Switch, StrongShocksAreHeld) {
   EXPECT_LT(ringing[1], 0.05);
 }
 
-// ---- Shifting ------------------------------------------------------------------------------------------------------
-
-/// No gradient within a lattice, none asked for at its surfaces; elsewhere the sum of its definition.
-TEST(Shifting, ConcentrationGradient) {
-  for (int d = 1; d <= 3; ++d) {
-    const int n = 13;
-    const Result even = run(cube(d, n, 0.1, 1.5, 0.0, [](Particle&) {}));
-    double surface = 0;
-    for (std::size_t i = 0; i < even.particles.size(); ++i) {
-      const ConcentrationRow& c = even.concentrations[i];
-      const double size = Vec3(c.x, c.y, c.z).norm();
-      const Vec3 x = place(even.particles[i]);
-      bool inside = true;
-      for (int a = 0; a < d; ++a) inside = inside && x[a] > 0.35 && x[a] < 0.1 * (n - 1) - 0.35;
-      if (inside) {
-        EXPECT_LT(size, 1e-12);
-      }
-      if (x.head(d).minCoeff() < 0.05) surface = std::max(surface, size);
-    }
-    EXPECT_EQ(surface, 0.0) << d;
-
-    const Result uneven = run(cube(d, n, 0.1, 1.5, 0.05, [](Particle&) {}));
-    const std::size_t i = middle_of(uneven, d, n, 0.1);
-    Vec3 sum = Vec3::Zero();
-    for (const Particle& j : uneven.particles) {
-      const Vec3 x = place(uneven.particles[i]) - place(j);
-      const double q = x.norm() / j.h;
-      if (q <= 0 || q >= 2) continue;
-      const double slope = reference_slope(KernelName::wendland_c2, q) / std::pow(j.h, d + 2);
-      sum += j.volume * reference_scale(KernelName::wendland_c2, d) * slope * x;
-    }
-    const ConcentrationRow& c = uneven.concentrations[i];
-    EXPECT_GT(sum.norm(), 0.01);
-    EXPECT_LT((Vec3(c.x, c.y, c.z) - sum).norm(), 1e-6 * sum.norm()) << d;
-  }
-}
-
-/// Another body within reach holds the shift back, fully where it is half of what a particle sees.
-TEST(Shifting, NoneAtAContact) {
-  Sample sample = cube(2, 14, 0.1, 1.5, 0.05, [](Particle&) {});
-  Set& left = sample.sets[0];
-  Set right = left;
-  right.particles.clear();
-  std::vector<Particle> kept;
-  for (const Particle& q : left.particles) (q.x < 0.65 ? kept : right.particles).push_back(q);
-  left.particles = kept;
-  sample.sets.push_back(right);
-  const Result r = run(sample);
-  int beside = 0;
-  for (std::size_t i = 0; i < r.particles.size(); ++i) {
-    const Particle& q = r.particles[i];
-    const double size = Vec3(r.concentrations[i].x, r.concentrations[i].y, 0).norm();
-    if (std::abs(q.x - 0.65) < 0.06) {
-      EXPECT_EQ(size, 0.0);
-      ++beside;
-    }
-    if (std::abs(std::abs(q.x - 0.65) - 0.35) < 0.06 && q.y > 0.45 && q.y < 0.85) {
-      EXPECT_GT(size, 0.0);
-    }
-  }
-  EXPECT_GT(beside, 10);
-}
-
-/// Four vortices in a box turn once: spacings stay more even, and mass and energy are those of a run without. Momentum cannot
-/// be told from the walls'; a free drop keeps it.
-TEST(Shifting, EvensOut) {
-  const double spacing = 0.08;
-  double unevenness[3];
-  const std::pair<bool, Integrator> cases[] = {
-      {false, Integrator::leapfrog}, {true, Integrator::leapfrog}, {true, Integrator::ssp_rk3}};
-  for (int k = 0; k < 3; ++k) {
-    const auto [shifted, integrator] = cases[k];
-    Settings settings;
-    settings.dimension = 2;
-    settings.lattice.spacing = spacing;
-    settings.numerics.threads = 1;
-    settings.numerics.shifting = shifted ? 1.0 : 0.0;
-    settings.numerics.integrator = integrator;
-    settings.numerics.courant = default_courant(integrator, settings.numerics.kernel);
-    const Vec3 low(-1, -1, -1), high(1, 1, 1);
-    Body water = body("water", box(low, high), "water-tait");
-    StartField vortices;
-    const double pi = std::numbers::pi, speed = 100.0, density = materials::density_at(water.material.law, 5e7, 0.0);
-    vortices.state = [=](const Vec3& x, double) {
-      return StartState{
-          density,
-          0.0,
-          {speed * std::sin(pi * x[0]) * std::cos(pi * x[1]), -speed * std::cos(pi * x[0]) * std::sin(pi * x[1]), 0}};
-    };
-    vortices.mass = 4.0 * density;
-    vortices.kinetic_energy = density * speed * speed;
-    water.pressure = 5e7;
-    water.start = std::make_shared<const StartField>(vortices);
-    settings.bodies = {water};
-    settings.walls = {box_wall(low, high, FaceCondition::free_slip)};
-    Fluid fluid(settings);
-    const auto total = [&] { return fluid.ledger().kinetic + fluid.ledger().internal + fluid.ledger().dissipated; };
-    const double mass = fluid.ledger().mass, energy = total();
-    while (fluid.time() < 0.01) fluid.step(fluid.step_limit().step);
-    EXPECT_NEAR(fluid.ledger().mass, mass, 1e-14 * mass);
-    EXPECT_LT(std::abs(total() - energy), 0.02 * vortices.kinetic_energy) << shifted;
-    const std::vector<double> x = fluid.field("position");
-    double sum = 0, squares = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < x.size() / 3; ++i) {
-      const Vec3 at = vector_of(x, i);
-      if (at.cwiseAbs().maxCoeff() > 1.0 - 3.5 * spacing) continue;  // what it sees is whole
-      double concentration = 0;
-      for (std::size_t j = 0; j < x.size() / 3; ++j)
-        concentration += spacing * spacing * value<WendlandC2>((vector_of(x, j) - at).norm(), 1.5 * spacing, 2);
-      sum += concentration;
-      squares += concentration * concentration;
-      ++count;
-    }
-    sum /= count, squares /= count;
-    unevenness[k] = std::sqrt(squares - sum * sum) / sum;
-  }
-  RecordProperty("unevenness", std::to_string(unevenness[0]) + " without, " + std::to_string(unevenness[1]) + " with, " +
-                                   std::to_string(unevenness[2]) + " with ssp_rk3");
-  EXPECT_LT(unevenness[1], 0.7 * unevenness[0]);
-  EXPECT_LT(unevenness[2], 0.7 * unevenness[0]);
-}
+// ---- Whole flows ---------------------------------------------------------------------------------------------------
 
 /// A free drop with gas inside: mass and momentum to round-off, energy to the integrator's error, angular momentum nearly.
-TEST(Shifting, TakesNothing) {
-  for (const bool shifted : {false, true}) {
-    Settings settings;
-    settings.dimension = 2;
-    settings.lattice.spacing = 0.04;
-    settings.lattice.jitter = 0.1;
-    settings.numerics.threads = 1;
-    settings.numerics.shifting = shifted ? 1.0 : 0.0;
-    const Sphere bubble{Vec3(0.1, 0.05, 0), 0.3};
-    Body water = body("water", Shape{Sphere{Vec3::Zero(), 0.8}, {bubble}}, "water-tait");
-    water.pressure = 5e7;
-    water.velocity = {20, -10, 0};
-    Body gas = body("gas", Shape{bubble, {}}, "bubble-gas");
-    gas.density = 300.0;
-    gas.variable_h = true;
-    settings.bodies = {water, gas};
-    Fluid fluid(settings);
-    const auto total = [&] { return fluid.ledger().kinetic + fluid.ledger().internal + fluid.ledger().dissipated; };
-    const auto angular = [&](double& scale) {
-      const std::vector<double> x = fluid.field("position"), v = fluid.field("velocity"), m = fluid.field("mass");
-      double sum = 0;
-      scale = 0;
-      for (std::size_t i = 0; i < m.size(); ++i) {
-        sum += m[i] * (x[3 * i] * v[3 * i + 1] - x[3 * i + 1] * v[3 * i]);
-        scale += m[i] * vector_of(x, i).norm() * vector_of(v, i).norm();
-      }
-      return sum;
-    };
-    const Ledger start = fluid.ledger();
-    const double energy = total();
-    double scale;
-    const double spin = angular(scale);
-    while (fluid.time() < 6e-4) fluid.step(fluid.step_limit().step);
-    const Ledger end = fluid.ledger();
-    EXPECT_NEAR(end.mass, start.mass, 1e-14 * start.mass);
-    EXPECT_LT((end.momentum - start.momentum).norm(), 1e-12 * start.mass * fluid.maximum_speed());
-    EXPECT_LT(std::abs(total() - energy), 2e-3 * end.kinetic);
-    const double turned = (angular(scale) - spin) / scale;
-    RecordProperty(shifted ? "angular_momentum_with" : "angular_momentum_without", std::to_string(turned * 1e6) + "e-6");
-    EXPECT_LT(std::abs(turned), shifted ? 1e-4 : 1e-6);
-  }
-}
-
-/// Water at rest under pressure stays where it is.
-TEST(Shifting, RestStaysAtRest) {
+TEST(Schemes, FreeDropKeepsWhatItHas) {
   Settings settings;
-  settings.lattice.spacing = 0.1;
-  settings.numerics.shifting = 1.0;
-  const Vec3 low = Vec3::Zero(), high = Vec3::Ones();
-  settings.bodies = {body("water", box(low, high), "water-tait")};
-  settings.bodies[0].pressure = 1e7;
-  settings.walls = {box_wall(low, high, FaceCondition::no_slip)};  // corners of free-slip faces are no rest
+  settings.dimension = 2;
+  settings.lattice.spacing = 0.04;
+  settings.lattice.jitter = 0.1;
+  settings.numerics.threads = 1;
+  const Sphere bubble{Vec3(0.1, 0.05, 0), 0.3};
+  Body water = body("water", Shape{Sphere{Vec3::Zero(), 0.8}, {bubble}}, "water-tait");
+  water.pressure = 5e7;
+  water.velocity = {20, -10, 0};
+  Body gas = body("gas", Shape{bubble, {}}, "bubble-gas");
+  gas.density = 300.0;
+  gas.variable_h = true;
+  settings.bodies = {water, gas};
   Fluid fluid(settings);
-  const std::vector<Vec3> before = by_id(fluid, "position");
-  for (int k = 0; k < 10; ++k) fluid.step(1e-5);
-  const std::vector<Vec3> after = by_id(fluid, "position");
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - before[i]).norm(), 1e-12);
+  const auto total = [&] { return fluid.ledger().kinetic + fluid.ledger().internal + fluid.ledger().dissipated; };
+  const auto angular = [&](double& scale) {
+    const std::vector<double> x = fluid.field("position"), v = fluid.field("velocity"), m = fluid.field("mass");
+    double sum = 0;
+    scale = 0;
+    for (std::size_t i = 0; i < m.size(); ++i) {
+      sum += m[i] * (x[3 * i] * v[3 * i + 1] - x[3 * i + 1] * v[3 * i]);
+      scale += m[i] * vector_of(x, i).norm() * vector_of(v, i).norm();
+    }
+    return sum;
+  };
+  const Ledger start = fluid.ledger();
+  const double energy = total();
+  double scale;
+  const double spin = angular(scale);
+  while (fluid.time() < 6e-4) fluid.step(fluid.step_limit().step);
+  const Ledger end = fluid.ledger();
+  EXPECT_NEAR(end.mass, start.mass, 1e-14 * start.mass);
+  EXPECT_LT((end.momentum - start.momentum).norm(), 1e-12 * start.mass * fluid.maximum_speed());
+  EXPECT_LT(std::abs(total() - energy), 2e-3 * end.kinetic);
+  const double turned = (angular(scale) - spin) / scale;
+  RecordProperty("angular_momentum", std::to_string(turned * 1e6) + "e-6");
+  EXPECT_LT(std::abs(turned), 1e-6);
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
     const int count = 60;
     Particles particles;
     particles.resize(count, false);
-    particles.make_room(SecondRow::none, 1.0, false, false);
+    particles.make_room(SecondRow::none, 1.0, false);
     for (int i = 0; i < count; ++i) {
       const double angle = 0.5 * std::numbers::pi * (i + 0.5) / count;
       particles.x[i] = r * std::cos(angle);
