@@ -25,7 +25,7 @@ std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
       return TubeShape{t->axis, t->center, t->inner_radius, t->outer_radius, t->low, t->high};
   std::optional<TubeShape> nearest;
   double least = 1e300;
-  for (const sph::SolidBody& solid : scene.fluid.solids) {
+  for (const solid::Body& solid : scene.solids.bodies) {
     const double away = signed_distance(solid.shape, point, scene.fluid.dimension);
     if (const auto* t = std::get_if<TubeShape>(&solid.shape.base); t && away < least) {
       least = away;
@@ -91,7 +91,7 @@ output::NamedNumbers taylor_bar(const scene::Scene& scene, const run::Simulation
     const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
     return output::taylor_bar_metrics({x.begin(), x.end()}, rod.axis, rod.center, rod.high - rod.low);
   }
-  const sph::SolidBody& body = scene.fluid.solids.front();
+  const solid::Body& body = scene.solids.bodies.front();
   const auto& rod = std::get<Cylinder>(body.shape.base);
   return output::taylor_bar_metrics({x.begin(), x.end()}, rod.axis, rod.center, rod.high - rod.low,
                                     0.5 * body.spacing.value_or(scene.fluid.lattice.spacing));

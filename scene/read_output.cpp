@@ -220,7 +220,7 @@ void read_comparison(const TableReader& top, Draft& draft) {
       table.complain("probe", "comparison.probe: no probe '" + comparison.probe + "'" + suggestion(comparison.probe, names));
   }
   if (comparison.kind == "taylor_bar") {
-    const auto& solids = draft.scene.fluid.solids;
+    const auto& solids = draft.scene.solids.bodies;
     const bool rod = draft.scene.structure ? std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh)
                                            : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
     if (!rod)

@@ -16,7 +16,10 @@
 
 #include "sph_fluid/pairs/fluid_state.hpp"
 
-namespace undex::sph::UNDEX_LEVEL {
+namespace undex::solid::UNDEX_LEVEL {
+
+using namespace sph;
+using namespace sph::UNDEX_LEVEL;
 
 /// Solids meet no rigid wall's particles.
 template <class V>
@@ -228,4 +231,4 @@ struct ContactForces {
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 };
 
-}  // namespace undex::sph::UNDEX_LEVEL
+}  // namespace undex::solid::UNDEX_LEVEL
