@@ -23,9 +23,7 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
                    "of [[solids]], a cylinder; there is none");
 }
 
-std::vector<std::string> last_fields(const scene::Scene& scene) {
-  return {scene.structure ? "structure.position" : "solids.position"};
-}
+std::vector<std::string> last_fields(const scene::Scene&) { return {"body.position"}; }
 
 Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   const std::vector<Vec3> points = evidence.field(last_fields(scene)[0]).vectors();

@@ -45,8 +45,7 @@ struct Probe {
   std::string name;
   Kind kind = Kind::fluid;
   Vec3 point = Vec3::Zero();            ///< [m]
-  std::vector<std::string> quantities;  ///< fluid, wall: pressure, velocity, density, void_fraction;
-                                        ///< structure: displacement, velocity, stress, plastic_strain, temperature
+  std::vector<std::string> quantities;  ///< of the lists in core/point_values.hpp
 };
 
 /// What is written, and how often. Zero interval: never.
