@@ -63,19 +63,15 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
         place = place_on_wall(simulation, probe.point, 2.0 * scene.fluid.lattice.spacing);
       read = reader<FluidPoint>(quantities, dimension, fluid_point(simulation, std::move(place)));
     }
-    const std::size_t count = columns.size();
     output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back({.probe = probe,
-                         .read = std::move(read),
-                         .columns = std::move(columns),
-                         .history = std::move(history),
-                         .samples = std::vector<std::vector<double>>(count)});
+    channels_.push_back(
+        {.probe = probe, .read = std::move(read), .history = std::move(history), .samples = output::Samples(std::move(columns))});
   }
 }
 
 void Probes::append(Channel& channel, const std::vector<double>& row) {
   channel.history.append(row);
-  for (std::size_t c = 0; c < row.size(); ++c) channel.samples[c].push_back(row[c]);
+  channel.samples.append(row);
 }
 
 std::vector<double> Probes::row_of(const Channel& channel, double time) {
@@ -98,12 +94,10 @@ void Probes::flush() {
   for (Channel& channel : channels_) channel.history.flush();
 }
 
-output::Series Probes::series(const std::string& probe, const std::string& column) const {
-  for (const Channel& channel : channels_)
-    if (channel.probe.name == probe)
-      for (std::size_t c = 1; c < channel.columns.size(); ++c)
-        if (channel.columns[c].name == column) return {channel.samples[0], channel.samples[c]};
-  return {};
+std::map<std::string, output::Samples> Probes::samples() const {
+  std::map<std::string, output::Samples> all;
+  for (const Channel& channel : channels_) all[channel.probe.name] = channel.samples;
+  return all;
 }
 
 }  // namespace undex::run

@@ -1,4 +1,4 @@
-// The histories of a run: one CSV file per probe, and the samples kept for the comparison at the end.
+// The histories of a run: one CSV file per probe, and the samples as evidence for a verdict.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 #include "run/simulation.hpp"
 #include "output/history.hpp"
-#include "output/series.hpp"
+#include "output/samples.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
@@ -25,16 +25,15 @@ class Probes {
   void sample_before(double time);
   void flush();
 
-  /// Samples of one column ("pressure", "displacement_x", ...) of a probe; empty where there is none.
-  output::Series series(const std::string& probe, const std::string& column) const;
+  /// What has been sampled, by the probe's name.
+  std::map<std::string, output::Samples> samples() const;
 
  private:
   struct Channel {
     scene::Probe probe;
     std::function<void(std::vector<double>& row)> read;  ///< appends the present values of its columns
-    std::vector<output::Column> columns;                 ///< time first
     output::History history;
-    std::vector<std::vector<double>> samples;  ///< one series per column
+    output::Samples samples;
   };
   static void append(Channel& channel, const std::vector<double>& row);
   static std::vector<double> row_of(const Channel& channel, double time);
