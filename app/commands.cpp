@@ -6,12 +6,13 @@
 #include <cstdlib>
 #include <map>
 
-#include "run/describe.hpp"
-#include "run/run.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
+#include "judge/judge.hpp"
 #include "materials/library.hpp"
 #include "output/files.hpp"
+#include "run/describe.hpp"
+#include "run/run.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::app {
@@ -36,7 +37,7 @@ std::vector<scene::Override> parsed(const std::vector<std::string>& texts) {
 }
 
 scene::Scene read_scene(const SceneArguments& arguments) {
-  scene::Scene scene = scene::read(arguments.scene, parsed(arguments.overrides));
+  scene::Scene scene = scene::read(arguments.scene, judge::comparison_kinds(), parsed(arguments.overrides));
   if (arguments.threads > 0) scene.fluid.numerics.threads = arguments.threads;
   if (scene.fluid.numerics.threads > 0) omp_set_num_threads(scene.fluid.numerics.threads);
   return scene;
@@ -77,18 +78,30 @@ void print_set(const Set& set) {
 
 int run_scene(const RunArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);
+  const judge::Judge judge(scene);  // a reference that cannot be read is found now
   run::RunOptions options;
   options.output = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
   options.threads = scene.fluid.numerics.threads;
   options.verbosity = arguments.verbosity;
   options.scene_text = whole_text(scene.file);
   options.program = version_line();
+  options.last_fields = judge.last_fields();
   output::require_unused_folder(options.output, arguments.force);  // made when the scene is known to be sound
-  return run::compute(scene, options);
+
+  run::Result result = run::compute(scene, options);
+  const judge::Verdict verdict = judge.verdict(result.evidence);
+  judge::write_tables(options.output, verdict);
+  result.record.metrics = verdict.metrics;
+  output::write_summary(options.output / "summary.json", result.record);
+  if (options.verbosity >= 0) std::printf("%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str());
+  if (result.record.status == "stopped") throw NumericalStop(result.record.message);
+  return result.signal == 0 ? exit_done : 128 + result.signal;
 }
 
 int check_scene(const SceneArguments& arguments) {
-  std::printf("%s", run::describe(read_scene(arguments)).c_str());
+  const scene::Scene scene = read_scene(arguments);
+  const judge::Judge needs_its_reference(scene);
+  std::printf("%s", run::describe(scene).c_str());
   return exit_done;
 }
 
@@ -110,7 +123,7 @@ int list_scenes() {
       if (lines.contains(name)) continue;
       std::string title;
       try {
-        title = scene::read(entry.path()).title;
+        title = scene::read(entry.path(), judge::comparison_kinds()).title;
       } catch (const std::exception&) {
         title = "(cannot be read: undex check says why)";
       }

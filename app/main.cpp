@@ -6,7 +6,10 @@
 #include <new>
 
 #include "app/commands.hpp"
+#include "app/version.hpp"
 #include "core/errors.hpp"
+#include "study/compare_runs.hpp"
+#include "study/study.hpp"
 
 namespace {
 
@@ -47,47 +50,46 @@ int dispatch(int argc, char** argv) {
   CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
   add_scene_arguments(*check, check_arguments);
 
-  CompareArguments compare_arguments;
+  study::CompareOptions compare_options;
   CLI::App* comparison = program.add_subcommand(
       "compare",
       "finished runs beside each other: histories at common times, energies, errors, cost, and how far each is from the first");
   comparison
-      ->add_option("runs", compare_arguments.runs,
+      ->add_option("runs", compare_options.runs,
                    "output folders of two runs or more; the first is what the others are compared with")
       ->required()
       ->expected(2, -1)
       ->type_name("RUN");
-  comparison->add_option("--reference", compare_arguments.reference,
+  comparison->add_option("--reference", compare_options.reference,
                          "CSV: a table of metrics (cases/*/reference), or a history with the header time [s],pressure [Pa],...");
-  comparison->add_option("--at", compare_arguments.times,
+  comparison->add_option("--at", compare_options.times,
                          "times of the table's rows [us], such as 20,40,60; default: the reference table's, else round ones");
-  comparison->add_option("--label", compare_arguments.labels,
+  comparison->add_option("--label", compare_options.labels,
                          "names of the runs, such as FEM,SPH; default: the settings that tell them apart");
-  comparison->add_option("-o,--output", compare_arguments.output, "output folder; default: out/compare");
-  comparison->add_flag("--force", compare_arguments.force, "write into an output folder that is not empty");
+  comparison->add_option("-o,--output", compare_options.output, "output folder; default: out/compare");
+  comparison->add_flag("--force", compare_options.force, "write into an output folder that is not empty");
   comparison->footer(
       "Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
       "how: docs/outputs.md");
 
-  StudyArguments study_arguments;
-  CLI::App* study = program.add_subcommand(
+  study::StudyOptions study_options;
+  CLI::App* study_command = program.add_subcommand(
       "study", "a grid of runs from one study file: errors, observed orders and cost in one table; goes on where it was ended");
-  study->add_option("study", study_arguments.study, "study file (.toml), or a folder with study.toml")->required();
-  study->add_option("-o,--output", study_arguments.output, "output folder; default: the study's, else out/study_<name>");
-  study->add_option("-j,--jobs", study_arguments.jobs, "runs at a time (each with the study's threads, by default one)")
+  study_command->add_option("study", study_options.study, "study file (.toml), or a folder with study.toml")->required();
+  study_command->add_option("-o,--output", study_options.output, "output folder; default: the study's, else out/study_<name>");
+  study_command->add_option("-j,--jobs", study_options.jobs, "runs at a time (each with the study's threads, by default one)")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  study
-      ->add_option("--only", study_arguments.only,
-                   "only runs whose name has this in it, or matches it (* and ?); may be repeated")
+  study_command
+      ->add_option("--only", study_options.only, "only runs whose name has this in it, or matches it (* and ?); may be repeated")
       ->type_name("PATTERN")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  study->add_flag("--list", study_arguments.list,
-                  "say which runs there are, which are there and which would be run; write nothing");
-  study->add_flag("--again", study_arguments.again, "run also what is there");
-  study->add_flag("-q,--quiet", study_arguments.quiet, "print nothing but errors");
-  study->footer(
+  study_command->add_flag("--list", study_options.list,
+                          "say which runs there are, which are there and which would be run; write nothing");
+  study_command->add_flag("--again", study_options.again, "run also what is there");
+  study_command->add_flag("-q,--quiet", study_options.quiet, "print nothing but errors");
+  study_command->footer(
       "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
       "The study file: docs/studies.md");
 
@@ -104,8 +106,14 @@ int dispatch(int argc, char** argv) {
   }
   if (*run) return run_scene(run_arguments);
   if (*check) return check_scene(check_arguments);
-  if (*comparison) return compare_runs(compare_arguments);
-  if (*study) return run_study(study_arguments);
+  if (*comparison) {
+    study::compare_runs(compare_options);
+    return exit_done;
+  }
+  if (*study_command) {
+    study_options.program = version_line();
+    return study::run_study(study_options);
+  }
   if (*materials) return print_materials();
   if (*list) return list_scenes();
   if (*version) return print_version(json);

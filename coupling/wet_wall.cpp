@@ -5,16 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bilinear_patch.hpp"
+
 namespace undex::coupling {
-namespace {
-
-std::array<double, 4> shape(double u, double v) { return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}; }
-
-Vec3 blend(const std::array<int, 4>& face, const std::array<double, 4>& weight, std::span<const Vec3> nodal) {
-  return weight[0] * nodal[face[0]] + weight[1] * nodal[face[1]] + weight[2] * nodal[face[2]] + weight[3] * nodal[face[3]];
-}
-
-}  // namespace
 
 WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const std::array<bool, 3>& symmetry)
     : surface_(surface), symmetry_(symmetry) {
@@ -32,10 +25,8 @@ WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const 
       for (int j = 0; j < along_v; ++j)
         for (int i = 0; i < along_u; ++i) {
           const double u = (i + 0.5) / along_u, v = (j + 0.5) / along_v;
-          const Vec3 du = (1 - v) * (corner[1] - corner[0]) + v * (corner[2] - corner[3]);
-          const Vec3 dv = (1 - u) * (corner[3] - corner[0]) + u * (corner[2] - corner[1]);
-          points_.push_back({int(f), d, shape(u, v)});
-          volume_.push_back(du.cross(dv).norm() / (along_u * along_v) * spacing);
+          points_.push_back({int(f), d, bilinear_weights(u, v)});
+          volume_.push_back(slope_along_u(corner, v).cross(slope_along_v(corner, u)).norm() / (along_u * along_v) * spacing);
         }
     }
   }
@@ -70,9 +61,9 @@ void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocit
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Point& point = points_[k];
     const std::array<int, 4>& face = surface_.faces[point.face];
-    const Vec3 n = blend(face, point.weight, normal);
-    wall.position[k] = blend(face, point.weight, position) + point.depth * n;
-    wall.velocity[k] = blend(face, point.weight, velocity);
+    const Vec3 n = blended(point.weight, face, normal);
+    wall.position[k] = blended(point.weight, face, position) + point.depth * n;
+    wall.velocity[k] = blended(point.weight, face, velocity);
     wall.normal[k] = n.normalized();
   }
 }
@@ -87,27 +78,6 @@ void WetWall::hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse)
     for (int c = 0; c < 4; ++c) nodal_impulse[surface_.faces[point.face][c]] += point.weight[c] * wall.impulse[k];
     wall.impulse[k].setZero();
   }
-}
-
-WetWall::Foot WetWall::nearest(const Vec3& x) const {
-  Foot foot;
-  double best = 1e300;
-  constexpr int fine = 8;
-  for (std::size_t f = 0; f < surface_.faces.size(); ++f)
-    for (int j = 0; j <= fine; ++j)
-      for (int i = 0; i <= fine; ++i) {
-        const std::array<double, 4> weight = shape(double(i) / fine, double(j) / fine);
-        const double distance = (blend(surface_.faces[f], weight, surface_.nodes) - x).norm();
-        if (distance < best) {
-          best = distance;
-          foot = {int(f), weight, distance};
-        }
-      }
-  return foot;
-}
-
-Vec3 WetWall::position_of(const Foot& foot, std::span<const Vec3> node_positions) const {
-  return blend(surface_.faces[foot.face], foot.weight, node_positions);
 }
 
 }  // namespace undex::coupling

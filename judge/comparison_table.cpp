@@ -11,9 +11,17 @@
 #include "core/errors.hpp"
 #include "output/text_table.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 
 namespace {
+
+using output::difference;
+using output::difference_text;
+using output::number;
+using output::padded_left;
+using output::padded_right;
+using output::print;
+using output::width;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -94,7 +102,7 @@ std::string format_comparison(const std::vector<LabelledMetrics>& runs, const Re
     std::vector<double> values;
     bool known = false;
     for (const LabelledMetrics& run : runs) {
-      const double* mine = find_number(run.metrics, row.metric);
+      const double* mine = output::find_number(run.metrics, row.metric);
       known = known || mine;
       values.push_back(mine ? *mine * row.scale : nan);
     }
@@ -154,8 +162,8 @@ std::string format_comparison(const std::vector<LabelledMetrics>& runs, const Re
   return text;
 }
 
-std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width) {
+std::string format_comparison(const output::NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width) {
   return format_comparison({{"this run", metrics}}, reference, max_width);
 }
 
-}  // namespace undex::output
+}  // namespace undex::judge

@@ -8,7 +8,7 @@
 
 #include "output/run_record.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 
 /// Reference values, read from CSV: a header `metric,label,unit,scale,<source>,<source>,...`, one row per metric; lines
 /// beginning with # are comments. Values are in the row's unit: metric * scale. A cell is empty (nothing known), a number,
@@ -32,7 +32,7 @@ ReferenceTable read_reference_table(const std::filesystem::path& path);
 /// A run's metrics under the name that heads its column.
 struct LabelledMetrics {
   std::string label;
-  NamedNumbers metrics;
+  output::NamedNumbers metrics;
 };
 
 /// One line per row of the reference: a value per run, then each source's value and every run's difference from it: in
@@ -42,6 +42,6 @@ struct LabelledMetrics {
 std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference,
                               std::size_t max_width = 120);
 /// The same of one run, headed "this run".
-std::string format_comparison(const NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width = 120);
+std::string format_comparison(const output::NamedNumbers& metrics, const ReferenceTable& reference, std::size_t max_width = 120);
 
-}  // namespace undex::output
+}  // namespace undex::judge

@@ -1,5 +1,4 @@
-#include "judge/profile.hpp"
-
+// comparison.kind = "profile": the particles at the end beside an exact solution in space (docs/outputs.md, "Metrics: profile").
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,17 +8,15 @@
 #include "exact/classical.hpp"
 #include "exact/detonation.hpp"
 #include "exact/riemann.hpp"
+#include "judge/comparisons.hpp"
 #include "judge/profile_points.hpp"
+#include "judge/profile_problem.hpp"
+#include "scene/table_reader.hpp"
 
 namespace undex::judge {
 namespace {
 
-using output::FlowState;
 using output::NamedNumbers;
-using output::Profile;
-using output::ProfileMean;
-using output::ProfilePoint;
-using scene::ProfileProblem;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Pressures beside a contact, and apart from contacts and shocks, are looked at within and beyond so many spacings: three
@@ -27,20 +24,21 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double near = 10;
 
 /// What the metrics of all solutions need.
-struct Comparison {
+struct Case {
   const scene::Scene& scene;
   const ProfileProblem& problem;
   double time, spacing;
   int dimension;
-  std::function<FlowState(double)> exact;  // of the coordinate
-  Profile profile;                         // within the window
+  std::function<FlowState(double)> exact = {};                // of the coordinate
+  std::function<NamedNumbers(const Case&)> own_metrics = {};  // of this solution alone
+  Profile profile = {};                                       // within the window
 
   const sph::Body& body(std::size_t k) const { return scene.fluid.bodies[k]; }
-  Profile shells() const { return output::shells(profile, spacing); }
+  Profile shells() const { return judge::shells(profile, spacing); }
 };
 
 /// `name`, `exact_name` and their distance in spacings.
-void add_position(NamedNumbers& metrics, const Comparison& c, const std::string& name, double run, double exact) {
+void add_position(NamedNumbers& metrics, const Case& c, const std::string& name, double run, double exact) {
   metrics.insert(metrics.end(),
                  {{name + "_m", run}, {"exact_" + name + "_m", exact}, {name + "_error_spacings", (run - exact) / c.spacing}});
 }
@@ -49,11 +47,12 @@ void add_pair(NamedNumbers& metrics, const std::string& name, double run, double
   metrics.insert(metrics.end(), {{name, run}, {"exact_" + name, exact}});
 }
 
-bool planar(const Comparison& c) { return c.problem.solution == scene::Solution::riemann; }
+bool planar(const Case& c) { return c.problem.solution == scene::Solution::riemann; }
 
-void collect(Comparison& c, const sph::Fluid& fluid) {
-  const std::vector<double> x = fluid.field("position"), v = fluid.field("velocity"), rho = fluid.field("density"),
-                            p = fluid.field("pressure"), mass = fluid.field("mass"), body = fluid.field("material");
+void collect(Case& c, const output::Evidence& evidence) {
+  const auto field = [&](const char* name) -> const std::vector<double>& { return evidence.field(name).values; };
+  const std::vector<double>&x = field("fluid.position"), &v = field("fluid.velocity"), &rho = field("fluid.density"),
+        &p = field("fluid.pressure"), &mass = field("fluid.mass"), &body = field("fluid.material");
   for (std::size_t i = 0; i < rho.size(); ++i) {
     const Vec3 at(x[3 * i], x[3 * i + 1], x[3 * i + 2]), velocity(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
     const Vec3 away = at - c.problem.center;
@@ -72,7 +71,7 @@ void collect(Comparison& c, const sph::Fluid& fluid) {
 }
 
 /// The exact solution at a thousand places across the window's particles.
-Profile exact_line(const Comparison& c) {
+Profile exact_line(const Case& c) {
   Profile line;
   if (c.profile.empty()) return line;
   const double low = c.profile.front().coordinate, high = c.profile.back().coordinate;
@@ -104,7 +103,7 @@ double half_way(const exact::RiemannSolution& solution, int side) {
 }
 
 /// Edge of one fluid at its contact [m]: half a particle beyond its last one.
-double inner_edge(const Comparison& c, int side) {
+double inner_edge(const Case& c, int side) {
   const std::size_t body = side == 0 ? c.problem.first : c.problem.second;
   double edge = nan;
   for (const ProfilePoint& p : c.profile) {
@@ -115,7 +114,7 @@ double inner_edge(const Comparison& c, int side) {
   return edge;
 }
 
-NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& solution) {
+NamedNumbers riemann_metrics(const Case& c, const exact::RiemannSolution& solution) {
   NamedNumbers metrics;
   const double x0 = c.problem.center[0], t = c.time;
   const char* const names[2] = {"left", "right"};
@@ -126,8 +125,8 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
     const double exact = x0 + t * half_way(solution, side);
     if (solution.shock(side)) shock[side] = exact;
     const double level = 0.5 * (start[side] + solution.star(side).pressure);
-    add_position(metrics, c, std::string(names[side]) + "_front",
-                 output::front_position(shells, &FlowState::pressure, level, side == 1), exact);
+    add_position(metrics, c, std::string(names[side]) + "_front", front_position(shells, &FlowState::pressure, level, side == 1),
+                 exact);
   }
   const double edge[2] = {inner_edge(c, 0), inner_edge(c, 1)};
   const double exact_edge[2] = {x0 + t * solution.star(0).velocity, x0 + t * solution.star(1).velocity};
@@ -139,7 +138,7 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
     // The middle third between contact and wave.
     const double reach = x0 + t * solution.head(side) - exact_edge[side];
     const double a = exact_edge[side] + reach / 3, b = exact_edge[side] + 2 * reach / 3;
-    const ProfileMean mean = output::profile_mean(c.profile, std::min(a, b), std::max(a, b));
+    const ProfileMean mean = profile_mean(c.profile, std::min(a, b), std::max(a, b));
     const double before = c.body(side == 0 ? c.problem.first : c.problem.second).velocity[0];
     const std::string name = names[side];
     add_pair(metrics, name + "_velocity_change_m_s", mean.run.velocity - before, mean.exact.velocity - before);
@@ -153,7 +152,7 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
   const auto beside_contact = [&](const ProfilePoint& p) {
     return std::abs(p.coordinate - edge[p.body == int(c.problem.first) ? 0 : 1]) < near * c.spacing;
   };
-  metrics.emplace_back("contact_oscillation", output::largest_pressure_error(c.profile, [&](const ProfilePoint& p) {
+  metrics.emplace_back("contact_oscillation", largest_pressure_error(c.profile, [&](const ProfilePoint& p) {
                                                 return beside_contact(p) && far_from_shocks(p);
                                               }) / jump);
   for (const int side : {0, 1}) {
@@ -170,15 +169,15 @@ NamedNumbers riemann_metrics(const Comparison& c, const exact::RiemannSolution& 
 
 // ---------------------------------------------------------------------------------------------------- round flows
 
-NamedNumbers taylor_wave_metrics(const Comparison& c, const exact::TaylorWave& solution) {
+NamedNumbers taylor_wave_metrics(const Case& c, const exact::TaylorWave& solution) {
   NamedNumbers metrics;
   const double front = solution.front().detonation_speed * c.time;
-  add_position(metrics, c, "front",
-               output::front_position(c.shells(), &FlowState::pressure, 0.5 * solution.front().pressure, true), front);
+  add_position(metrics, c, "front", front_position(c.shells(), &FlowState::pressure, 0.5 * solution.front().pressure, true),
+               front);
   double peak = nan;
   for (const ProfilePoint& p : c.profile) peak = std::fmax(peak, p.run.pressure);
   add_pair(metrics, "peak_pressure_pa", peak, solution.front().pressure);
-  const ProfileMean core = output::profile_mean(c.profile, 0, 0.8 * solution.core_share() * front);
+  const ProfileMean core = profile_mean(c.profile, 0, 0.8 * solution.core_share() * front);
   add_pair(metrics, "core_pressure_pa", core.run.pressure, core.exact.pressure);
   add_pair(metrics, "core_density_kg_m3", core.run.density, core.exact.density);
   return metrics;
@@ -191,29 +190,29 @@ double shell_peak(const Profile& shells, double FlowState::*quantity) {
   return most;
 }
 
-NamedNumbers sedov_metrics(const Comparison& c, const exact::Sedov& solution) {
+NamedNumbers sedov_metrics(const Case& c, const exact::Sedov& solution) {
   NamedNumbers metrics;
   const Profile shells = c.shells();
   const double front = solution.shock_radius(c.time), rho0 = sph::start_density(c.body(c.problem.second));
   const double peak = shell_peak(shells, &FlowState::density);
   const FlowState behind = c.exact(front * (1 - 1e-9));
-  add_position(metrics, c, "front", output::front_position(shells, &FlowState::density, 0.5 * (rho0 + peak), true), front);
+  add_position(metrics, c, "front", front_position(shells, &FlowState::density, 0.5 * (rho0 + peak), true), front);
   add_pair(metrics, "peak_density_kg_m3", peak, behind.density);
   add_pair(metrics, "peak_pressure_pa", shell_peak(shells, &FlowState::pressure), behind.pressure);
-  const ProfileMean core = output::profile_mean(c.profile, 0, 0.4 * front);
+  const ProfileMean core = profile_mean(c.profile, 0, 0.4 * front);
   add_pair(metrics, "core_pressure_pa", core.run.pressure, core.exact.pressure);
   return metrics;
 }
 
-NamedNumbers noh_metrics(const Comparison& c, const exact::Noh& solution) {
+NamedNumbers noh_metrics(const Case& c, const exact::Noh& solution) {
   NamedNumbers metrics;
   const double front = solution.shock_radius(c.time);
   const FlowState behind = c.exact(0.0);
-  add_position(metrics, c, "front", output::front_position(c.shells(), &FlowState::pressure, 0.5 * behind.pressure, true), front);
-  const ProfileMean plateau = output::profile_mean(c.profile, 0.3 * front, 0.8 * front);
+  add_position(metrics, c, "front", front_position(c.shells(), &FlowState::pressure, 0.5 * behind.pressure, true), front);
+  const ProfileMean plateau = profile_mean(c.profile, 0.3 * front, 0.8 * front);
   add_pair(metrics, "density_kg_m3", plateau.run.density, plateau.exact.density);
   add_pair(metrics, "pressure_pa", plateau.run.pressure, plateau.exact.pressure);
-  const ProfileMean centre = output::profile_mean(c.profile, 0, 0.2 * front);
+  const ProfileMean centre = profile_mean(c.profile, 0, 0.2 * front);
   add_pair(metrics, "centre_density_kg_m3", centre.run.density, centre.exact.density);
   add_pair(metrics, "centre_pressure_pa", centre.run.pressure, centre.exact.pressure);
   return metrics;
@@ -223,7 +222,7 @@ FlowState state(const exact::GasSample& s) { return {s.density, s.velocity, s.pr
 
 double gamma_of(const sph::Body& body) { return std::get<materials::IdealGas>(body.material.law).parameters().gamma; }
 
-exact::Sedov sedov(const Comparison& c) {
+exact::Sedov sedov(const Case& c) {
   const sph::Body &hot = c.body(c.problem.first), &cold = c.body(c.problem.second);
   // Shapes are given whole, whatever the symmetry planes.
   const double volume_of_hot = volume(hot.shape, bounds(hot.shape, c.dimension), c.dimension);
@@ -231,54 +230,96 @@ exact::Sedov sedov(const Comparison& c) {
   return {c.dimension, gamma_of(hot), sph::start_density(cold), c.dimension == 1 ? 0.5 * energy : energy};
 }
 
+// ---------------------------------------------------------------------------------------------------- the four problems
+
+void pose_riemann(Case& c) {
+  const auto solution =
+      std::make_shared<exact::RiemannSolution>(side_of(c.body(c.problem.first)), side_of(c.body(c.problem.second)));
+  c.exact = [solution, x0 = c.problem.center[0], t = c.time](double x) {
+    const exact::RiemannSample s = solution->sample((x - x0) / t);
+    return FlowState{s.density, s.velocity, s.pressure};
+  };
+  c.own_metrics = [solution](const Case& posed) { return riemann_metrics(posed, *solution); };
+}
+
+void pose_taylor_wave(Case& c) {
+  const auto solution = std::make_shared<exact::TaylorWave>(std::get<materials::Jwl>(c.body(c.problem.first).material.law),
+                                                            c.problem.plane ? 1 : c.dimension);
+  c.exact = [solution, t = c.time](double r) {
+    const exact::TaylorWave::Sample s = solution->sample(r, t);
+    return FlowState{s.density, s.velocity, s.pressure};
+  };
+  c.own_metrics = [solution](const Case& posed) { return taylor_wave_metrics(posed, *solution); };
+}
+
+void pose_sedov(Case& c) {
+  const auto solution = std::make_shared<exact::Sedov>(sedov(c));
+  c.exact = [solution, t = c.time](double r) { return state(solution->sample(r, t)); };
+  c.own_metrics = [solution](const Case& posed) { return sedov_metrics(posed, *solution); };
+}
+
+void pose_noh(Case& c) {
+  const sph::Body& gas = c.body(c.problem.first);
+  const exact::Noh solution{c.dimension, gamma_of(gas), sph::start_density(gas), -gas.radial_velocity};
+  c.exact = [solution, t = c.time](double r) { return state(solution.sample(r, t)); };
+  c.own_metrics = [solution](const Case& posed) { return noh_metrics(posed, solution); };
+}
+
+void pose(Case& c) {
+  switch (c.problem.solution) {
+    case scene::Solution::riemann: return pose_riemann(c);
+    case scene::Solution::taylor_wave: return pose_taylor_wave(c);
+    case scene::Solution::sedov: return pose_sedov(c);
+    case scene::Solution::noh: return pose_noh(c);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------- the comparison
+
+/// Whether the bodies pose such a problem.
+void check(const scene::TableReader& table, const scene::Scene& scene) {
+  const scene::Comparison& comparison = scene.comparison;
+  if (!comparison.solution) return;
+  if (comparison.core && *comparison.solution != scene::Solution::riemann)
+    table.complain("core", table.path_of("core") + " is for solution = \"riemann\": round flows have no axis; leave it out");
+  if (!table.report().empty()) return;  // bodies that are not sound pose nothing
+  try {
+    profile_problem(scene.fluid, *comparison.solution);
+  } catch (const std::exception& misfit) {
+    table.complain("solution", table.path_of("solution") + ": " + misfit.what());
+  }
+}
+
+std::vector<std::string> last_fields(const scene::Scene&) {
+  return {"fluid.position", "fluid.velocity", "fluid.density", "fluid.pressure", "fluid.mass", "fluid.material"};
+}
+
+Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+  if (!(evidence.time > 0)) return {};
+  const ProfileProblem problem = profile_problem(scene.fluid, *scene.comparison.solution);
+  Case c{.scene = scene,
+         .problem = problem,
+         .time = evidence.time,
+         .spacing = scene.fluid.lattice.spacing,
+         .dimension = scene.fluid.dimension};
+  pose(c);
+  collect(c, evidence);
+  Verdict verdict;
+  verdict.metrics = profile_errors(c.profile);
+  const NamedNumbers own = c.own_metrics(c);
+  verdict.metrics.insert(verdict.metrics.end(), own.begin(), own.end());
+  verdict.tables = {{"profile.csv", profile_table(c.profile)}, {"profile_exact.csv", exact_profile_table(exact_line(c))}};
+  return verdict;
+}
+
 }  // namespace
 
-NamedNumbers compare_profile(const scene::Scene& scene, const run::Simulation& simulation, const std::filesystem::path& folder) {
-  if (!(simulation.time() > 0)) return {};
-  const ProfileProblem problem = scene::profile_problem(scene.fluid, *scene.comparison.solution);
-  Comparison c{scene, problem, simulation.time(), scene.fluid.lattice.spacing, scene.fluid.dimension, {}, {}};
-  std::function<NamedNumbers()> further;
-  switch (problem.solution) {
-    case scene::Solution::riemann: {
-      auto solution = std::make_shared<exact::RiemannSolution>(side_of(c.body(problem.first)), side_of(c.body(problem.second)));
-      c.exact = [solution, x0 = problem.center[0], t = c.time](double x) {
-        const exact::RiemannSample s = solution->sample((x - x0) / t);
-        return FlowState{s.density, s.velocity, s.pressure};
-      };
-      further = [&c, solution] { return riemann_metrics(c, *solution); };
-      break;
-    }
-    case scene::Solution::taylor_wave: {
-      auto solution = std::make_shared<exact::TaylorWave>(std::get<materials::Jwl>(c.body(problem.first).material.law),
-                                                          problem.plane ? 1 : c.dimension);
-      c.exact = [solution, t = c.time](double r) {
-        const exact::TaylorWave::Sample s = solution->sample(r, t);
-        return FlowState{s.density, s.velocity, s.pressure};
-      };
-      further = [&c, solution] { return taylor_wave_metrics(c, *solution); };
-      break;
-    }
-    case scene::Solution::sedov: {
-      auto solution = std::make_shared<exact::Sedov>(sedov(c));
-      c.exact = [solution, t = c.time](double r) { return state(solution->sample(r, t)); };
-      further = [&c, solution] { return sedov_metrics(c, *solution); };
-      break;
-    }
-    case scene::Solution::noh: {
-      const sph::Body& gas = c.body(problem.first);
-      const exact::Noh solution{c.dimension, gamma_of(gas), sph::start_density(gas), -gas.radial_velocity};
-      c.exact = [solution, t = c.time](double r) { return state(solution.sample(r, t)); };
-      further = [&c, solution] { return noh_metrics(c, solution); };
-      break;
-    }
-  }
-  collect(c, *simulation.fluid());
-  NamedNumbers metrics = output::profile_errors(c.profile);
-  const NamedNumbers more = further();
-  metrics.insert(metrics.end(), more.begin(), more.end());
-  output::write_profile(folder / "profile.csv", c.profile);
-  output::write_exact_profile(folder / "profile_exact.csv", exact_line(c));
-  return metrics;
+Comparison profile() {
+  return {.kind = {.name = "profile", .keys = {"solution", "window", "core"}, .check = check},
+          .title = "the particles at the end beside an exact solution in space",
+          .beside_table = false,
+          .last_fields = last_fields,
+          .judge = judge_run};
 }
 
 }  // namespace undex::judge

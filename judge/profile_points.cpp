@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "output/history.hpp"
-
-namespace undex::output {
+namespace undex::judge {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -14,7 +12,7 @@ constexpr double FlowState::*quantities[3] = {&FlowState::density, &FlowState::v
 
 }  // namespace
 
-NamedNumbers profile_errors(const Profile& profile) {
+output::NamedNumbers profile_errors(const Profile& profile) {
   double volume = 0, error[3] = {}, largest[3] = {};
   for (const ProfilePoint& point : profile) {
     volume += point.volume;
@@ -92,26 +90,26 @@ double largest_pressure_error(const Profile& profile, const std::function<bool(c
   return largest;
 }
 
-void write_profile(const std::filesystem::path& path, const Profile& profile) {
-  History file(path, {{"coordinate", "m"},
-                      {"body", ""},
-                      {"volume", "m^d"},
-                      {"density", "kg/m3"},
-                      {"velocity", "m/s"},
-                      {"pressure", "Pa"},
-                      {"exact_density", "kg/m3"},
-                      {"exact_velocity", "m/s"},
-                      {"exact_pressure", "Pa"}});
+output::Samples profile_table(const Profile& profile) {
+  output::Samples table({{"coordinate", "m"},
+                         {"body", ""},
+                         {"volume", "m^d"},
+                         {"density", "kg/m3"},
+                         {"velocity", "m/s"},
+                         {"pressure", "Pa"},
+                         {"exact_density", "kg/m3"},
+                         {"exact_velocity", "m/s"},
+                         {"exact_pressure", "Pa"}});
   for (const ProfilePoint& p : profile)
-    file.append({p.coordinate, double(p.body), p.volume, p.run.density, p.run.velocity, p.run.pressure, p.exact.density,
-                 p.exact.velocity, p.exact.pressure});
-  file.close();
+    table.append({p.coordinate, double(p.body), p.volume, p.run.density, p.run.velocity, p.run.pressure, p.exact.density,
+                  p.exact.velocity, p.exact.pressure});
+  return table;
 }
 
-void write_exact_profile(const std::filesystem::path& path, const Profile& profile) {
-  History file(path, {{"coordinate", "m"}, {"exact_density", "kg/m3"}, {"exact_velocity", "m/s"}, {"exact_pressure", "Pa"}});
-  for (const ProfilePoint& p : profile) file.append({p.coordinate, p.exact.density, p.exact.velocity, p.exact.pressure});
-  file.close();
+output::Samples exact_profile_table(const Profile& profile) {
+  output::Samples table({{"coordinate", "m"}, {"exact_density", "kg/m3"}, {"exact_velocity", "m/s"}, {"exact_pressure", "Pa"}});
+  for (const ProfilePoint& p : profile) table.append({p.coordinate, p.exact.density, p.exact.velocity, p.exact.pressure});
+  return table;
 }
 
-}  // namespace undex::output
+}  // namespace undex::judge

@@ -2,13 +2,13 @@
 // norms, means, fronts. Pure functions of the compared points.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <vector>
 
 #include "output/run_record.hpp"
+#include "output/samples.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 
 /// What a profile shows of the flow at a point.
 struct FlowState {
@@ -32,7 +32,7 @@ using Profile = std::vector<ProfilePoint>;
 ///   points
 ///   l1_density, l1_velocity, l1_pressure                          over the largest |exact| among the points; NaN where that is 0
 ///   l1_density_kg_m3, l1_velocity_m_s, l1_pressure_pa             as they are
-NamedNumbers profile_errors(const Profile& profile);
+output::NamedNumbers profile_errors(const Profile& profile);
 
 /// Means by volume over the points with low <= coordinate <= high, of the run and of the exact states; NaN without points.
 struct ProfileMean {
@@ -50,10 +50,9 @@ double front_position(const Profile& profile, double FlowState::*quantity, doubl
 /// Largest |run - exact| of the pressure [Pa] among the points that `counts` wants; NaN without any.
 double largest_pressure_error(const Profile& profile, const std::function<bool(const ProfilePoint&)>& counts);
 
-/// Writes the points as CSV: `coordinate [m],body [-],volume [m^d],density [kg/m3],velocity [m/s],pressure [Pa]` and the exact
-/// states in `exact_...`. Throws FileError.
-void write_profile(const std::filesystem::path& path, const Profile& profile);
-/// The exact states alone, for a line through them: `coordinate [m],exact_density [kg/m3],...`.
-void write_exact_profile(const std::filesystem::path& path, const Profile& profile);
+/// The points as a table: coordinate, body, volume, density, velocity, pressure, and the exact states in `exact_...`.
+output::Samples profile_table(const Profile& profile);
+/// The exact states alone, for a line through them.
+output::Samples exact_profile_table(const Profile& profile);
 
-}  // namespace undex::output
+}  // namespace undex::judge

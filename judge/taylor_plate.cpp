@@ -2,13 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "run/plane_wave_start.hpp"
 #include "exact/classical.hpp"
 #include "exact/lagrangian_1d.hpp"
+#include "judge/comparisons.hpp"
+#include "run/plane_wave_start.hpp"
+#include "scene/table_reader.hpp"
 
 namespace undex::judge {
 namespace {
+
+using output::NamedNumbers;
+using output::Series;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+/// A plate that a plane wave meets head-on.
+void check(const scene::TableReader& table, const scene::Scene& scene) {
+  const scene::Start::Wave& wave = scene.start.wave;
+  const auto* plate = scene.structure ? std::get_if<fem::PlateMesh>(&scene.structure->mesh) : nullptr;
+  const std::string face = std::string(1, "xyz"[wave.axis]) + (wave.upward ? "_low" : "_high");
+  if (scene.start.kind != scene::Start::Kind::plane_wave || !plate)
+    table.complain("kind",
+                   "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
+  else if (scene.structure->wet_faces != std::vector<std::string>{face})
+    table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
+                               "'; write structure.wet = [\"" + face + "\"]");
+  const auto reads_water = [&](const scene::Probe& probe) {
+    return probe.name == scene.comparison.probe && probe.kind != scene::Probe::Kind::structure;
+  };
+  if (std::any_of(scene.probes.begin(), scene.probes.end(), reads_water))
+    table.complain("probe", "comparison.probe must be a structure probe: the plate's velocity is compared");
+}
+
+/// Time at which y, above `level` at `from`, first falls through it.
+double fall_through(const Series& series, double level, double from) {
+  for (std::size_t i = 1; i < series.t.size(); ++i)
+    if (series.t[i - 1] >= from && series.y[i - 1] >= level && series.y[i] < level)
+      return series.t[i - 1] + (series.y[i - 1] - level) / (series.y[i - 1] - series.y[i]) * (series.t[i] - series.t[i - 1]);
+  return nan;
+}
+
+double fall_to_zero(const Series& p, double peak) {
+  const double reached = first_rise(p, peak, -forever, forever);
+  if (std::isnan(reached)) return nan;
+  const double low = fall_through(p, 0.05 * peak, reached);
+  if (std::isnan(low)) return nan;
+  // The last fall before that, so that an oscillation on the way does not stretch the line.
+  double high = nan;
+  for (double at = fall_through(p, 0.1 * peak, reached); at <= low; at = fall_through(p, 0.1 * peak, std::nextafter(at, forever)))
+    high = at;
+  return low + (low - high);
+}
 
 /// The scene along the wave's way, with the plate's wet face at zero and the water below it.
 struct Line {
@@ -28,9 +75,52 @@ Line line_of(const scene::Scene& scene) {
           scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
 }
 
+/// Of the run (pressure of the first wall probe, velocity of the compared one), of the one-dimensional solution (label "_1d"),
+/// and of G. I. Taylor's linear theory ("_acoustic"); and
+///   cavitation_error, impulse_error, end_impulse_error   of the run, as a share of the one-dimensional solution's
+///   velocity_l1             mean difference of the plate's velocity from that solution, over its largest
+Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+  const Line line = line_of(scene);
+  const double end = evidence.time;
+  const scene::Start::Wave& given = scene.start.wave;
+  PlateHistories run;
+  for (const scene::Probe& probe : scene.probes)
+    if (probe.kind == scene::Probe::Kind::wall && run.pressure.empty()) run.pressure = evidence.series(probe.name, "pressure");
+  run.velocity = evidence.series(scene.comparison.probe, std::string("velocity_") + "xyz"[given.axis]);
+  for (double& v : run.velocity.y) v *= line.way;
+
+  const PlateHistories reference = plate_in_one_dimension(scene, end);
+  NamedNumbers metrics = plate_metrics(run, line.plate_mass, given.peak);
+  const NamedNumbers exact = plate_metrics(reference, line.plate_mass, given.peak, "_1d");
+  const NamedNumbers own = metrics;
+  metrics.insert(metrics.end(), exact.begin(), exact.end());
+
+  const exact::PlaneWave wave = run::plane_wave(scene);
+  const exact::TaylorPlate theory{
+      .peak = given.peak, .decay = given.decay, .impedance = wave.impedance(), .plate_mass = line.plate_mass};
+  metrics.emplace_back("cavitation_acoustic_s", theory.cavitation_time() - line.front / wave.rest_sound());
+  metrics.emplace_back("impulse_acoustic_pa_s", theory.impulse());
+  const char* const names[] = {"cavitation_error", "impulse_error", "end_impulse_error"};
+  for (int k = 0; k < 3; ++k) metrics.emplace_back(names[k], own[k].second / exact[k].second - 1.0);
+  metrics.emplace_back("velocity_l1", output::difference_norms(run.velocity, reference.velocity, 0.0, end).l1);
+  return {.metrics = std::move(metrics)};
+}
+
 }  // namespace
 
-output::PlateHistories plate_in_one_dimension(const scene::Scene& scene, double end, int refinement) {
+NamedNumbers plate_metrics(const PlateHistories& histories, double mass, double peak, const std::string& label) {
+  require_valid(histories.pressure);
+  require_valid(histories.velocity);
+  const Series& v = histories.velocity;
+  const double cavitation = fall_to_zero(histories.pressure, peak);
+  const bool reached = !std::isnan(cavitation) && !v.empty() && v.t.back() > cavitation;
+  return {
+      {"cavitation" + label + "_s", cavitation},
+      {"impulse" + label + "_pa_s", reached ? mass * value_at(v, cavitation) : nan},
+      {"end_impulse" + label + "_pa_s", reached ? mass * integral(v, cavitation, v.t.back()) / (v.t.back() - cavitation) : nan}};
+}
+
+PlateHistories plate_in_one_dimension(const scene::Scene& scene, double end, int refinement) {
   const Line line = line_of(scene);
   const exact::PlaneWave wave = run::plane_wave(scene);
   // As fine as the wave asks for, and finer towards a plate that weighs less than little water.
@@ -45,7 +135,7 @@ output::PlateHistories plate_in_one_dimension(const scene::Scene& scene, double 
     return exact::StartPoint{s.density, s.velocity, s.energy};
   };
   exact::Lagrangian1D mesh(1, {water}, exact::Boundary::free, exact::Boundary::free, {.outer_mass = line.plate_mass});
-  output::PlateHistories histories;
+  PlateHistories histories;
   constexpr int samples = 1000;
   for (int i = 0; i <= samples; ++i) {
     mesh.advance(end * i / samples);
@@ -55,30 +145,10 @@ output::PlateHistories plate_in_one_dimension(const scene::Scene& scene, double 
   return histories;
 }
 
-output::NamedNumbers taylor_plate(const scene::Scene& scene, const run::Probes& probes, double end) {
-  const Line line = line_of(scene);
-  const scene::Start::Wave& given = scene.start.wave;
-  output::PlateHistories run;
-  for (const scene::Probe& probe : scene.probes)
-    if (probe.kind == scene::Probe::Kind::wall && run.pressure.empty()) run.pressure = probes.series(probe.name, "pressure");
-  run.velocity = probes.series(scene.comparison.probe, std::string("velocity_") + "xyz"[given.axis]);
-  for (double& v : run.velocity.y) v *= line.way;
-
-  const output::PlateHistories reference = plate_in_one_dimension(scene, end);
-  output::NamedNumbers metrics = output::plate_metrics(run, line.plate_mass, given.peak);
-  const output::NamedNumbers exact = output::plate_metrics(reference, line.plate_mass, given.peak, "_1d");
-  const output::NamedNumbers own = metrics;
-  metrics.insert(metrics.end(), exact.begin(), exact.end());
-
-  const exact::PlaneWave wave = run::plane_wave(scene);
-  const exact::TaylorPlate theory{
-      .peak = given.peak, .decay = given.decay, .impedance = wave.impedance(), .plate_mass = line.plate_mass};
-  metrics.emplace_back("cavitation_acoustic_s", theory.cavitation_time() - line.front / wave.rest_sound());
-  metrics.emplace_back("impulse_acoustic_pa_s", theory.impulse());
-  const char* const names[] = {"cavitation_error", "impulse_error", "end_impulse_error"};
-  for (int k = 0; k < 3; ++k) metrics.emplace_back(names[k], own[k].second / exact[k].second - 1.0);
-  metrics.emplace_back("velocity_l1", output::difference_norms(run.velocity, reference.velocity, 0.0, end).l1);
-  return metrics;
+Comparison taylor_plate() {
+  return {.kind = {.name = "taylor_plate", .needs_probe = true, .check = check},
+          .title = "a plate that a plane wave throws, beside a one-dimensional solution and Taylor's theory",
+          .judge = judge_run};
 }
 
 }  // namespace undex::judge

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/errors.hpp"
@@ -25,13 +26,23 @@ herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-[[noreturn]] void throw_hdf5_error(const char* action, const std::filesystem::path& path) {
-  const int error = errno;
+/// What is wrong with a file that is read, and the remedy.
+[[noreturn]] void throw_damaged(const std::filesystem::path& path, const std::string& reason) {
+  throw FileError("cannot read " + path.string() + ": " + reason +
+                  "; the file is damaged or another program's: run the scene again, or take it from the run's original folder");
+}
+
+std::string innermost_reason() {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &reason);
+  return reason.empty() ? "HDF5 gives no reason" : reason;
+}
+
+[[noreturn]] void throw_hdf5_error(const char* action, const std::filesystem::path& path) {
+  const int error = errno;
+  const std::string reason = innermost_reason();
   if (error != 0) throw_file_error(action, path, error);
-  throw FileError(std::string("cannot ") + action + " " + path.string() + ": " +
-                  (reason.empty() ? "HDF5 gives no reason" : reason) +
+  throw FileError(std::string("cannot ") + action + " " + path.string() + ": " + reason +
                   "; if the file is damaged or of another program, remove it, else choose another output folder with -o");
 }
 
@@ -71,11 +82,37 @@ File File::open(const std::filesystem::path& path) {
   return File(path, std::move(file));
 }
 
-void File::fail(const char* action) const { throw_hdf5_error(action, path_); }
+File File::create_compact(const std::filesystem::path& path) {
+  silence();
+  errno = 0;
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()));
+  if (file < 0) throw_hdf5_error("write", path);
+  return File(path, std::move(file));
+}
+
+File File::open_to_read(const std::filesystem::path& path) {
+  silence();
+  errno = 0;
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()));
+  if (file < 0) throw_damaged(path, errno != 0 ? std::strerror(errno) : innermost_reason());
+  return {path, std::move(file), true};
+}
+
+void File::fail(const char* action) const {
+  if (reads_) throw_damaged(path_, innermost_reason());
+  throw_hdf5_error(action, path_);
+}
 
 Handle File::group(hid_t parent, const char* name) const {
   errno = 0;
   return Handle(check(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "write"));
+}
+
+Handle File::ordered_group(hid_t parent, const std::string& name) const {
+  errno = 0;
+  Handle creation(H5Pcreate(H5P_GROUP_CREATE));
+  H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  return Handle(check(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), "write"));
 }
 
 Handle File::unnamed_group() const {
@@ -134,12 +171,75 @@ void File::dataset(hid_t parent, const std::string& name, std::span<const float>
   write(parent, name, H5T_NATIVE_FLOAT, values.data(), values.size() / columns, columns, sizeof(float));
 }
 
+void File::dataset(hid_t parent, const std::string& name, std::span<const double> values, std::size_t columns) const {
+  write(parent, name, H5T_NATIVE_DOUBLE, values.data(), values.size() / columns, columns, sizeof(double));
+}
+
 void File::dataset(hid_t parent, const std::string& name, std::span<const std::int64_t> values) const {
   write(parent, name, H5T_NATIVE_INT64, values.data(), values.size(), 1, sizeof(std::int64_t));
 }
 
 void File::dataset(hid_t parent, const std::string& name, std::span<const unsigned char> values) const {
   write(parent, name, H5T_NATIVE_UCHAR, values.data(), values.size(), 1, 1);
+}
+
+Handle File::open_group(hid_t parent, const std::string& name) const {
+  return Handle(check(H5Gopen2(parent, name.c_str(), H5P_DEFAULT), "read"));
+}
+
+Handle File::open_dataset(hid_t parent, const std::string& name) const {
+  return Handle(check(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), "read"));
+}
+
+std::vector<std::string> File::members(hid_t group) const {
+  H5G_info_t info{};
+  check(H5Gget_info(group, &info), "read");
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const auto name = [&](char* into, std::size_t room) {
+      return check(H5Lget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i, into, room, H5P_DEFAULT), "read");
+    };
+    std::string text(static_cast<std::size_t>(name(nullptr, 0)), '\0');
+    name(text.data(), text.size() + 1);
+    names.push_back(std::move(text));
+  }
+  return names;
+}
+
+double File::number(hid_t object, const char* attribute) const {
+  Handle found(check(H5Aopen(object, attribute, H5P_DEFAULT), "read"));
+  Handle space(check(H5Aget_space(found), "read"));
+  if (H5Sget_simple_extent_npoints(space) != 1) throw_damaged(path_, std::string("attribute ") + attribute + " is no number");
+  double value = 0;
+  check(H5Aread(found, H5T_NATIVE_DOUBLE, &value), "read");
+  return value;
+}
+
+std::string File::text(hid_t object, const char* attribute) const {
+  Handle found(check(H5Aopen(object, attribute, H5P_DEFAULT), "read"));
+  Handle type(check(H5Aget_type(found), "read")), space(check(H5Aget_space(found), "read"));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_npoints(space) != 1)
+    throw_damaged(path_, std::string("attribute ") + attribute + " is no text");
+  std::string value(H5Tget_size(type), '\0');
+  check(H5Aread(found, type, value.data()), "read");
+  return value.substr(0, value.find('\0'));
+}
+
+File::Values File::read(hid_t dataset) const {
+  Handle space(check(H5Dget_space(dataset), "read"));
+  const int rank = H5Sget_simple_extent_ndims(space);
+  hsize_t size[2] = {0, 1};
+  if (rank != 1 && rank != 2) throw_damaged(path_, "a table has " + std::to_string(rank) + " dimensions");
+  check(H5Sget_simple_extent_dims(space, size, nullptr), "read");
+  // Compression gains a factor of a thousand at most: more is claimed by a damaged file, and would take all memory.
+  hsize_t bytes = 0;
+  check(H5Fget_filesize(file_, &bytes), "read");
+  if (size[1] == 0 || static_cast<double>(size[0]) * static_cast<double>(size[1]) > 200.0 * static_cast<double>(bytes))
+    throw_damaged(path_, "a table is larger than the file can hold");
+  Values result{std::vector<double>(size[0] * size[1]), size[1]};
+  if (!result.values.empty())
+    check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()), "read");
+  return result;
 }
 
 void File::flush() const {

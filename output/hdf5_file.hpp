@@ -1,4 +1,4 @@
-// The little of HDF5 that the field writers need, with handles that close themselves and errors that throw.
+// The little of HDF5 that fields and evidence need, with handles that close themselves and errors that throw.
 // Private to this folder: the HDF5 headers do not leave it.
 #pragma once
 
@@ -31,8 +31,10 @@ class Handle {
 /// An open file. Reports failures as FileError with the path, HDF5's own innermost reason and a remedy.
 class File {
  public:
-  static File create(const std::filesystem::path& path);  ///< empties an existing file
-  static File open(const std::filesystem::path& path);    ///< to read and write
+  static File create(const std::filesystem::path& path);          ///< empties an existing file; with room for many snapshots
+  static File create_compact(const std::filesystem::path& path);  ///< likewise, as small as can be
+  static File open(const std::filesystem::path& path);            ///< to read and write
+  static File open_to_read(const std::filesystem::path& path);
   /// Throws if `result` (of any HDF5 call on this file) tells of a failure; returns it otherwise.
   template <class Result>
   Result check(Result result, const char* action) const {
@@ -40,6 +42,8 @@ class File {
     return result;
   }
   Handle group(hid_t parent, const char* name) const;
+  /// A group that knows in which order its members were made.
+  Handle ordered_group(hid_t parent, const std::string& name) const;
   /// A group without a name yet: a killed run leaves nothing visible of it. link() publishes it.
   Handle unnamed_group() const;
   void link(hid_t object, const std::string& name) const;
@@ -50,21 +54,37 @@ class File {
 
   /// Datasets of `values.size()/columns` rows; float32 with shuffle and gzip. columns = 1 gives a one-dimensional set.
   void dataset(hid_t parent, const std::string& name, std::span<const float> values, std::size_t columns = 1) const;
+  void dataset(hid_t parent, const std::string& name, std::span<const double> values, std::size_t columns = 1) const;
   void dataset(hid_t parent, const std::string& name, std::span<const std::int64_t> values) const;
   void dataset(hid_t parent, const std::string& name, std::span<const unsigned char> values) const;
+
+  // Of a file that is read; a failure says that the file is damaged.
+  Handle open_group(hid_t parent, const std::string& name) const;
+  Handle open_dataset(hid_t parent, const std::string& name) const;
+  /// Names of the members of an ordered group, as they were made.
+  std::vector<std::string> members(hid_t group) const;
+  double number(hid_t object, const char* attribute) const;
+  std::string text(hid_t object, const char* attribute) const;
+  struct Values {
+    std::vector<double> values;  ///< row by row
+    std::size_t columns = 1;
+  };
+  Values read(hid_t dataset) const;
 
   /// Puts everything on disk. The file closes itself at the end of its scope.
   void flush() const;
   operator hid_t() const { return file_; }
 
  private:
-  File(std::filesystem::path path, Handle file) : path_(std::move(path)), file_(std::move(file)) {}
+  File(std::filesystem::path path, Handle file, bool reads = false)
+      : path_(std::move(path)), file_(std::move(file)), reads_(reads) {}
   [[noreturn]] void fail(const char* action) const;
   void write(hid_t parent, const std::string& name, hid_t type, const void* data, std::size_t rows, std::size_t columns,
              std::size_t value_bytes) const;
 
   std::filesystem::path path_;
   Handle file_;
+  bool reads_;
 };
 
 /// Every `stride`-th value from `first` on, as float32. Values beyond float32's range become its largest.

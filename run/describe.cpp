@@ -42,21 +42,6 @@ Bounds kept_part(const scene::Scene& scene) {
 
 const char* const unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
 
-std::string solid_bodies(const scene::Scene& scene, const sph::Solids& solids) {
-  const std::vector<std::size_t> count = solids.particles_by_body();
-  const int dimension = scene.fluid.dimension;
-  std::string text = "solids in particles\n";
-  for (std::size_t i = 0; i < count.size(); ++i) {
-    const sph::SolidBody& solid = scene.fluid.solids[i];
-    text += format("  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n", solid.name.c_str(), count[i],
-                   volume(solid.shape, kept_part(scene), dimension), unit[dimension - 1], solid.material.name.c_str(),
-                   solid.spacing.value_or(scene.fluid.lattice.spacing),
-                   solid.description == sph::Description::total_lagrangian ? "total" : "updated");
-  }
-  return text + format("  %.6g kg, stable step %.4g us (%s)\n", solids.ledger().mass, solids.stable_step() * 1e6,
-                       solids.stable_step_owner().c_str());
-}
-
 std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
   const int dimension = scene.fluid.dimension;
   const std::vector<std::size_t> count = fluid.particles_by_body();
@@ -90,15 +75,9 @@ std::string describe(const scene::Scene& given) {
     memory += double(fluid->memory_bytes());
     for (const std::string& warning : sph::lattice_warnings(scene.fluid)) text += "warning: " + warning + "\n";
   }
-  if (const fem::Structure* structure = simulation.structure()) {
-    text += format("structure %s of %s\n  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", scene.structure->name.c_str(),
-                   scene.structure->material.name.c_str(), structure->cell_count(), structure->node_count(),
-                   structure->total_mass(), structure->stable_step() * 1e6);
-    memory += double(structure->memory_bytes());
-  }
-  if (const sph::Solids* solids = simulation.solids()) {
-    text += solid_bodies(scene, *solids);
-    memory += double(solids->memory_bytes());
+  for (const auto& body : simulation.bodies()) {
+    text += body->description();
+    memory += double(body->memory_bytes());
   }
 
   // A few steps, for a second at most; the quickest counts, as other programs may be running too.
@@ -118,6 +97,31 @@ std::string describe(const scene::Scene& given) {
   text += format("memory about %.0f MB\n", std::ceil(memory / 1e6));
   text += format("run time %s with %d threads, by the first steps; fields and histories not counted\n",
                  duration(left / pace).c_str(), omp_get_max_threads());
+  return text;
+}
+
+std::string cost_text(const output::RunRecord& record) {
+  std::string text =
+      format("%s: %s at %.6g us after %lld steps, %.1f s of wall time, %.1f s of CPU time, %.0f MB\n", record.scene.c_str(),
+             record.status.c_str(), record.time_s * 1e6, static_cast<long long>(record.steps), record.wall_time_s,
+             record.cpu_time_s, record.peak_memory_bytes / 1e6);
+  if (record.particles > 0)
+    text += format("%lld particles, %.4g particle updates, %.3f million per second and core, %.0f bytes per particle\n",
+                   static_cast<long long>(record.particles), double(record.particle_updates),
+                   record.particle_updates / std::max(record.cpu_time_s, 1e-9) * 1e-6,
+                   double(record.peak_memory_bytes) / double(record.particles));
+  text += format("energy error %.2e, mass error %.1e", record.energy_error, record.mass_error);
+  if (record.momentum_error == record.momentum_error) text += format(", momentum error %.1e", record.momentum_error);
+  if (record.angular_momentum_error) text += format(", angular momentum error %.1e", *record.angular_momentum_error);
+  if (record.interface_energy_error)
+    text += format(", interface energy error %.2e, impulse error %.1e", *record.interface_energy_error,
+                   record.interface_impulse_error.value_or(0.0));
+  text += "\n";
+  if (std::abs(record.energy_error) > 0.01)
+    text += format(
+        "note: the energy balance is off by %.1f %%; compare with a smaller step (scheme.courant, structure.courant, "
+        "solid_scheme.courant)\n",
+        100.0 * record.energy_error);
   return text;
 }
 

@@ -1,23 +1,34 @@
-// One run: a scene computed from start to end, with its histories, fields and record in one folder.
+// One run: a scene computed from start to end, with its histories, fields and evidence in one folder. Nothing here judges it.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "output/evidence.hpp"
+#include "output/run_record.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
 
 struct RunOptions {
-  std::filesystem::path output;  ///< made if it does not exist
-  int threads = 0;               ///< 0: the scene's choice, or all the machine has
-  int verbosity = 0;             ///< -1 quiet, 0 normal, 1 every step
-  std::string scene_text;        ///< the scene file as the user wrote it
-  std::string program;           ///< version text for the record
+  std::filesystem::path output;          ///< made if it does not exist
+  int threads = 0;                       ///< 0: the scene's choice, or all the machine has
+  int verbosity = 0;                     ///< -1 quiet, 0 normal, 1 every step
+  std::string scene_text;                ///< the scene file as the user wrote it
+  std::string program;                   ///< version text for the record
+  std::vector<std::string> last_fields;  ///< of the last state that a verdict needs, such as "fluid.pressure"
 };
 
-/// Computes the scene. Returns the exit code: 0, 130 or 143 (after SIGINT or SIGTERM: what was computed is kept and
-/// recorded). Throws NumericalStop after having recorded the last state, SceneError, FileError.
-int compute(const scene::Scene& scene, const RunOptions& options);
+/// How a run ended and what it has observed.
+struct Result {
+  output::Evidence evidence;  ///< also in evidence.h5
+  output::RunRecord record;   ///< without metrics; its status is "done", "interrupted" (a signal) or "stopped" (the numerics)
+  int signal = 0;             ///< that interrupted it: SIGINT, SIGTERM
+};
+
+/// Computes the scene and leaves everything in the folder but summary.json, which waits for the metrics. What was computed
+/// before a signal or a stop by the numerics is kept and returned likewise. Throws SceneError, FileError.
+Result compute(const scene::Scene& scene, const RunOptions& options);
 
 }  // namespace undex::run

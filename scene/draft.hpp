@@ -41,8 +41,9 @@ std::string name_of(const std::filesystem::path& file, const char* usual_name);
 void read_fluid(Draft& draft);      // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
 void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
 void read_structure(Draft& draft);  // read_structure.cpp: [structure], [coupling]
-void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [comparison]
-void validate(Draft& draft);        // validate.cpp: what single keys cannot tell
+void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [start]
+void read_comparison(Draft& draft, const std::vector<ComparisonKind>& kinds);  // read_comparison.cpp: [comparison]
+void validate(Draft& draft);                                                   // validate.cpp: what single keys cannot tell
 
 /// The name of a table element in messages: "bodies.water", or "bodies.0" where it has no usable name.
 std::string element_path(const char* list, const Node& element, std::size_t index);

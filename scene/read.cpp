@@ -80,7 +80,7 @@ std::string element_path(const char* list, const Node& element, std::size_t inde
   return std::string(list) + '.' + (named ? name->text : std::to_string(index));
 }
 
-Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>& kinds, const std::vector<Override>& overrides) {
   const std::filesystem::path file = found_file(path, "scene", "case.toml", " ('undex list' shows the scenes shipped)");
   Draft draft;
   draft.root = parse_toml(file_text(file), file.string());
@@ -94,6 +94,7 @@ Scene read(const std::filesystem::path& path, const std::vector<Override>& overr
   resolve_subtractions(draft);
   read_structure(draft);
   read_output(draft);
+  read_comparison(draft, kinds);
   validate(draft);
   if (!draft.report.empty()) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
   return std::move(draft.scene);

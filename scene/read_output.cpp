@@ -1,6 +1,7 @@
-// [start], [[probes]], [output] and [comparison].
+// [start], [[probes]] and [output].
 #include <algorithm>
 
+#include "core/point_values.hpp"
 #include "scene/draft.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/table_reader.hpp"
@@ -8,8 +9,6 @@
 namespace undex::scene {
 namespace {
 
-const std::vector<std::string> fluid_quantities{"pressure", "velocity", "density", "void_fraction"};
-const std::vector<std::string> structure_quantities{"displacement", "velocity", "stress", "plastic_strain", "temperature"};
 const std::vector<std::string> known_particle_fields{"pressure",         "density",  "velocity",    "void_fraction", "energy",
                                                      "smoothing_length", "material", "sound_speed", "mass"};
 const std::vector<std::string> known_solid_fields{"pressure", "velocity",    "von_mises",    "plastic_strain",
@@ -41,7 +40,7 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   table.need("point", "give its position in m");
   const bool placed = table.read("point", probe.point);
   const bool in_structure = probe.kind == Probe::Kind::structure;
-  const auto& known = in_structure ? structure_quantities : fluid_quantities;
+  const std::vector<std::string> known = in_structure ? names_of(material_quantities) : names_of(fluid_quantities);
   probe.quantities = known;
   table.read("quantities", probe.quantities);
   if (probe.quantities.empty())
@@ -128,121 +127,6 @@ void read_start(const TableReader& top, Draft& draft) {
   read_wave(table, top, draft);
 }
 
-/// A plate that a plane wave meets head-on.
-void check_taylor_plate(const TableReader& table, const Draft& draft) {
-  const Scene& scene = draft.scene;
-  const Start::Wave& wave = scene.start.wave;
-  const auto* plate = scene.structure ? std::get_if<fem::PlateMesh>(&scene.structure->mesh) : nullptr;
-  const std::string face = std::string(1, "xyz"[wave.axis]) + (wave.upward ? "_low" : "_high");
-  if (scene.start.kind != Start::Kind::plane_wave || !plate)
-    table.complain("kind",
-                   "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
-  else if (scene.structure->wet_faces != std::vector<std::string>{face})
-    table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
-                               "'; write structure.wet = [\"" + face + "\"]");
-  const auto reads_water = [&](const Probe& probe) {
-    return probe.name == scene.comparison.probe && probe.kind != Probe::Kind::structure;
-  };
-  if (std::any_of(scene.probes.begin(), scene.probes.end(), reads_water))
-    table.complain("probe", "comparison.probe must be a structure probe: the plate's velocity is compared");
-}
-
-/// A spherical charge in one medium, and probes in it.
-void check_free_field(const TableReader& table, const Draft& draft) {
-  const auto& bodies = draft.scene.fluid.bodies;
-  const auto is_charge = [](const sph::Body& body) {
-    return body.variable_h && body.shape.removed.empty() && std::holds_alternative<Sphere>(body.shape.base);
-  };
-  const auto charges = std::count_if(bodies.begin(), bodies.end(), is_charge);
-  if (draft.scene.fluid.dimension != 3 || bodies.size() != 2 || charges != 1)
-    table.complain("kind",
-                   "comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and "
-                   "the medium from which it is subtracted");
-  if (std::none_of(draft.scene.probes.begin(), draft.scene.probes.end(),
-                   [](const Probe& p) { return p.kind == Probe::Kind::fluid; }))
-    table.complain("kind", "comparison.kind = \"free_field\" compares the pressures of fluid probes; add [[probes]]");
-}
-
-/// Keys of kind = "profile", and whether the bodies pose such a problem.
-void read_profile(const TableReader& table, Draft& draft) {
-  Comparison& comparison = draft.scene.comparison;
-  if (comparison.kind != "profile") {
-    for (const char* key : {"solution", "window", "core"})
-      if (table.has(key)) table.complain(key, table.path_of(key) + " belongs to kind = \"profile\"; leave it out");
-    return;
-  }
-  std::vector<double> window;
-  if (table.read("window", window)) {
-    if (window.size() == 2 && window[0] < window[1]) {
-      comparison.window_low = window[0];
-      comparison.window_high = window[1];
-    } else {
-      table.complain("window", table.path_of("window") + " must be [least, largest] coordinate in m, the first below the second");
-    }
-  }
-  Solution solution{};
-  Choices<Solution> choices;
-  for (const Solution each : {Solution::riemann, Solution::taylor_wave, Solution::sedov, Solution::noh})
-    choices.emplace_back(solution_name(each), each);
-  if (!table.need("solution", "name the exact solution, e.g. solution = \"riemann\"") ||
-      !table.read_choice<Solution>("solution", solution, choices))
-    return;
-  comparison.solution = solution;
-  table.read("core", comparison.core);
-  if (comparison.core && solution != Solution::riemann)
-    table.complain("core", table.path_of("core") + " is for solution = \"riemann\": round flows have no axis; leave it out");
-  if (!draft.report.empty()) return;  // bodies that are not sound pose nothing
-  try {
-    profile_problem(draft.scene.fluid, solution);
-  } catch (const std::exception& misfit) {
-    table.complain("solution", table.path_of("solution") + ": " + misfit.what());
-  }
-}
-
-void read_comparison(const TableReader& top, Draft& draft) {
-  Comparison& comparison = draft.scene.comparison;
-  comparison.kind = "none";
-  const Node* node = top.table("comparison");
-  if (!node) return;
-  const TableReader table(*node, "comparison", "comparison", top.dimension(), draft.report);
-  table.read_choice<std::string>("kind", comparison.kind,
-                                 {{"none", "none"},
-                                  {"rigid_cylinder", "rigid_cylinder"},
-                                  {"tube", "tube"},
-                                  {"taylor_bar", "taylor_bar"},
-                                  {"taylor_plate", "taylor_plate"},
-                                  {"free_field", "free_field"},
-                                  {"profile", "profile"}});
-  read_profile(table, draft);
-  if (table.read("probe", comparison.probe) && !comparison.probe.empty()) {
-    std::vector<std::string> names;
-    for (const Probe& probe : draft.scene.probes) names.push_back(probe.name);
-    if (std::find(names.begin(), names.end(), comparison.probe) == names.end())
-      table.complain("probe", "comparison.probe: no probe '" + comparison.probe + "'" + suggestion(comparison.probe, names));
-  }
-  if (comparison.kind == "taylor_bar") {
-    const auto& solids = draft.scene.fluid.solids;
-    const bool rod = draft.scene.structure ? std::holds_alternative<fem::RodMesh>(draft.scene.structure->mesh)
-                                           : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
-    if (!rod)
-      table.complain("kind",
-                     "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
-                     "of [[solids]], a cylinder; there is none");
-  } else if (comparison.kind == "free_field") {
-    check_free_field(table, draft);
-  } else if (comparison.kind != "none" && comparison.kind != "profile") {
-    table.need("probe", "name the probe that is compared");
-    if (comparison.kind == "taylor_plate") check_taylor_plate(table, draft);
-  }
-  if (std::string reference; table.read("reference", reference) && !reference.empty()) {
-    const std::filesystem::path full = draft.scene.file.parent_path() / reference;
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(full, ignored))
-      table.complain("reference", "comparison.reference: no file '" + full.string() + "'; give it relative to the scene file");
-    comparison.reference = std::filesystem::absolute(full).lexically_normal().string();
-  }
-}
-
 }  // namespace
 
 void read_output(Draft& draft) {
@@ -251,7 +135,6 @@ void read_output(Draft& draft) {
   for (std::size_t i = 0; i < probes.size(); ++i) read_probe(*probes[i], element_path("probes", *probes[i], i), draft);
   read_output_table(top, draft);
   read_start(top, draft);
-  read_comparison(top, draft);
 }
 
 }  // namespace undex::scene

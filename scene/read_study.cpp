@@ -390,7 +390,7 @@ Place place_of(const StudyDraft& draft, const StudyRun& run, const std::string& 
 }
 
 /// Reads the scene of every run, to have all their mistakes now.
-void read_runs(StudyDraft& draft) {
+void read_runs(StudyDraft& draft, const std::vector<ComparisonKind>& kinds) {
   struct Mistake {
     Place place;
     std::string message, first_run;
@@ -411,7 +411,7 @@ void read_runs(StudyDraft& draft) {
       if (place.key.line > 0 && differs(same->place.value, place.value)) same->place.value = place.key;
     };
     try {
-      const Scene scene = read(run.scene, run.settings);
+      const Scene scene = read(run.scene, kinds, run.settings);
       run.resolved = to_toml(scene);
       run.dimension = scene.fluid.dimension;
       run.reference = scene.comparison.reference;
@@ -436,7 +436,7 @@ void read_runs(StudyDraft& draft) {
 
 }  // namespace
 
-Study read_study(const std::filesystem::path& path) {
+Study read_study(const std::filesystem::path& path, const std::vector<ComparisonKind>& kinds) {
   StudyDraft draft;
   Study& study = draft.study;
   study.file = found_file(path, "study", "study.toml", "");
@@ -463,7 +463,7 @@ Study read_study(const std::filesystem::path& path) {
   read_exclude(top, draft);
   if (!draft.scenes.empty()) {
     expand(draft);
-    read_runs(draft);
+    read_runs(draft, kinds);
   }
   if (!draft.report.empty()) throw SceneError(study.file.string(), draft.report.findings());
   return std::move(draft.study);

@@ -10,7 +10,7 @@
 
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
-#include "scene/profile_problem.hpp"
+#include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::scene {
@@ -45,8 +45,7 @@ struct Probe {
   std::string name;
   Kind kind = Kind::fluid;
   Vec3 point = Vec3::Zero();            ///< [m]
-  std::vector<std::string> quantities;  ///< fluid, wall: pressure, velocity, density, void_fraction;
-                                        ///< structure: displacement, velocity, stress, plastic_strain, temperature
+  std::vector<std::string> quantities;  ///< of the lists in core/point_values.hpp
 };
 
 /// What is written, and how often. Zero interval: never.
@@ -64,13 +63,25 @@ struct Output {
 
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
-  std::string kind;                  ///< "none", "rigid_cylinder", "tube", "taylor_bar", "profile", "taylor_plate", "free_field"
+  std::string kind;                  ///< "none", or that of a ComparisonKind
   std::string probe;                 ///< the probe it reads
   std::string reference;             ///< CSV path, relative to the scene file; may be empty
   std::optional<Solution> solution;  ///< of a profile
   /// Of a profile: least and largest coordinate that is compared [m].
   double window_low = -std::numeric_limits<double>::infinity(), window_high = std::numeric_limits<double>::infinity();
   std::optional<double> core;  ///< of a Riemann problem: least |y| and |z| that is left out [m]
+};
+
+class TableReader;
+struct Scene;
+
+/// What the reader must know of a kind of comparison: it judges nothing itself.
+struct ComparisonKind {
+  std::string name;                    ///< comparison.kind
+  bool needs_probe = false;            ///< must comparison.probe be given?
+  std::vector<std::string> keys = {};  ///< of [comparison] that belong to this kind alone
+  /// Complains of what the comparison needs and the scene, which has been read so far, does not have. May be null.
+  void (*check)(const TableReader& table, const Scene& scene) = nullptr;
 };
 
 struct Scene {
@@ -91,9 +102,10 @@ struct Override {
   std::string key, value;
 };
 
-/// Reads and validates a scene (a .toml file, or a folder with case.toml). Throws SceneError with every mistake found,
-/// FileError when the file cannot be read.
-Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
+/// Reads and validates a scene (a .toml file, or a folder with case.toml), which may name one of the `kinds` of comparisons.
+/// Throws SceneError with every mistake found, FileError when the file cannot be read.
+Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>& kinds,
+           const std::vector<Override>& overrides = {});
 
 /// The scene as TOML with every default filled in (resolved.toml); reading it back gives the same scene.
 std::string to_toml(const Scene& scene);

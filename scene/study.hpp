@@ -57,6 +57,6 @@ struct Study {
 
 /// Reads a study (a .toml file, or a folder with study.toml), and the scene of every run, so that no mistake is left for
 /// the middle of the night. Throws SceneError with all that was found, FileError when a file cannot be read.
-Study read_study(const std::filesystem::path& path);
+Study read_study(const std::filesystem::path& path, const std::vector<ComparisonKind>& kinds);
 
 }  // namespace undex::scene

@@ -46,7 +46,7 @@ Solids::Implementation::Implementation(const Settings& given) : settings(given) 
   if (settings.numerics.threads > 0) omp_set_num_threads(settings.numerics.threads);
   time = settings.start_time;
   fill();
-  find_wet();
+  find_wet_particles();
   find_forces(0.0);
   find_acceleration();
   first_step = 1.0 / particles.rate[fastest()];
@@ -124,14 +124,14 @@ void Solids::Implementation::start_stress(const SolidGroup& group) {
   }
 }
 
-void Solids::Implementation::find_wet() {
+void Solids::Implementation::find_wet_particles() {
   if (settings.bodies.empty()) return;
   const double reach = kernel_support(settings.numerics.kernel) * smoothing_length(settings, settings.lattice.spacing);
   for (const SolidGroup& group : groups)
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
       const Face face = nearest_face(*group.body, particles.start[i], settings.dimension);
       if (face.depth > reach) continue;
-      wet.push_back(i);
+      wet_particles.push_back(i);
       wet_normal.push_back(-face.outward);
     }
 }
@@ -254,6 +254,31 @@ std::string Solids::Implementation::description_of(std::uint32_t i, const char* 
   return text.str();
 }
 
+double Solids::Implementation::stable_step() const { return settings.solid_numerics.courant / particles.rate[fastest()]; }
+
+void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_impulse) {
+  if (!wet_impulse.empty() && wet_impulse.size() != surface.nodes.size())
+    throw std::invalid_argument("solids: " + std::to_string(wet_impulse.size()) + " impulses for " +
+                                std::to_string(surface.nodes.size()) + " wet nodes; give one per node of wet_surface(), or none");
+  const double interval = t_end - time;
+  if (!(interval > 0.0) || !std::isfinite(interval)) {
+    std::ostringstream text;
+    text << "solids: cannot advance from " << time << " s to " << t_end << " s; give a later time";
+    throw std::invalid_argument(text.str());
+  }
+  if (settings.numerics.threads > 0) omp_set_num_threads(settings.numerics.threads);
+  spread_impulse(wet_impulse, interval);
+  find_acceleration();
+  for (;;) {
+    const double left = t_end - time;
+    const double count = std::max(1.0, std::ceil(left / stable_step() * (1.0 - 1e-12)));
+    step(left / count);
+    if (count == 1.0) break;
+  }
+  time = t_end;
+  show_surface_motion();
+}
+
 // ---- The public face ------------------------------------------------------------------------------------------------
 
 Solids::Solids(const Settings& settings) : self_(std::make_unique<Implementation>(settings)) {}
@@ -261,31 +286,8 @@ Solids::~Solids() = default;
 Solids::Solids(Solids&&) noexcept = default;
 Solids& Solids::operator=(Solids&&) noexcept = default;
 
-double Solids::stable_step() const { return self_->settings.solid_numerics.courant / self_->particles.rate[self_->fastest()]; }
-
-void Solids::advance(double t_end, std::span<const Vec3> impulse) {
-  Implementation& s = *self_;
-  if (!impulse.empty() && impulse.size() != s.particles.size())
-    throw std::invalid_argument("solids: " + std::to_string(impulse.size()) + " impulses for " +
-                                std::to_string(s.particles.size()) + " particles; give one each, or none");
-  const double interval = t_end - s.time;
-  if (!(interval > 0.0) || !std::isfinite(interval)) {
-    std::ostringstream text;
-    text << "solids: cannot advance from " << s.time << " s to " << t_end << " s; give a later time";
-    throw std::invalid_argument(text.str());
-  }
-  if (s.settings.numerics.threads > 0) omp_set_num_threads(s.settings.numerics.threads);
-  for (std::size_t i = 0; i < s.particles.size(); ++i)
-    s.impulse_force[i] = impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(impulse[i] / interval);
-  s.find_acceleration();
-  for (;;) {
-    const double left = t_end - s.time;
-    const double count = std::max(1.0, std::ceil(left / stable_step() * (1.0 - 1e-12)));
-    s.step(left / count);
-    if (count == 1.0) break;
-  }
-  s.time = t_end;
-}
+double Solids::stable_step() const { return self_->stable_step(); }
+void Solids::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
 
 void Solids::kick(std::span<const Vec3> impulse) {
   Implementation& s = *self_;

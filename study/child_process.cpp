@@ -14,7 +14,7 @@
 #include "core/errors.hpp"
 #include "output/files.hpp"
 
-namespace undex::app {
+namespace undex::study {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log)
     : start_(std::chrono::steady_clock::now()) {
@@ -71,4 +71,4 @@ double ChildProcess::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace undex::app {
+namespace undex::study {
 
 class ChildProcess {
  public:
@@ -36,4 +36,4 @@ class ChildProcess {
   std::chrono::steady_clock::time_point start_;
 };
 
-}  // namespace undex::app
+}  // namespace undex::study

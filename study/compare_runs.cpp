@@ -4,28 +4,26 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
 
-#include "app/commands.hpp"
+#include "study/compare_runs.hpp"
 #include "study/run_settings.hpp"
 #include "core/errors.hpp"
-#include "judge/comparison_table.hpp"
+#include "judge/radial.hpp"
+#include "judge/reference.hpp"
 #include "output/files.hpp"
 #include "study/run_comparison.hpp"
 #include "output/run_folder.hpp"
 #include "study/run_labels.hpp"
 #include "output/text_table.hpp"
 
-namespace undex::app {
+namespace undex::study {
 namespace {
 
 namespace fs = std::filesystem;
-using output::ComparedBlock;
 using output::HistoryColumn;
-using output::Quantity;
 using output::Series;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -79,39 +77,6 @@ std::vector<double> parsed_times(const std::string& list) {
   return times;
 }
 
-/// What a run is compared with besides the first run: one of the two, or none.
-struct Reference {
-  std::optional<output::ReferenceTable> table;
-  std::vector<HistoryColumn> history;
-};
-
-Reference read_reference(const fs::path& path) {
-  Reference reference;
-  if (path.empty()) return reference;
-  std::ifstream file(path);
-  std::string header;
-  while (std::getline(file, header) && (header.empty() || header[0] == '#')) {
-  }
-  if (!file)
-    throw FileError(path.string() + ": cannot be read as a reference; give a CSV file, such as those in cases/*/reference");
-  if (header.starts_with("metric,")) {
-    reference.table = output::read_reference_table(path);
-  } else if (header.starts_with("time")) {
-    reference.history = output::read_history(path);
-    for (const HistoryColumn& column : reference.history) try {
-        output::require_valid(column.series);
-      } catch (const std::invalid_argument& error) {
-        throw FileError(path.string() + ": column '" + column.name + "': " + error.what() + "; mend the file");
-      }
-  } else {
-    throw FileError(path.string() +
-                    ": neither a table of metrics (header metric,label,unit,scale,<source>,...) nor a history "
-                    "(header time [s],pressure [Pa],...); its first line is '" +
-                    header + "'");
-  }
-  return reference;
-}
-
 // ------------------------------------------------------------------------------------------------ quantities
 
 /// A quantity with what decides how it is shown.
@@ -126,30 +91,24 @@ std::string spoken(std::string name) {
   return name;
 }
 
-/// A probe's columns, with vectors of a round structure turned into their radial component.
+/// A probe's columns, with complete vectors of a round structure turned into their radial component.
 std::vector<HistoryColumn> radial_columns(const std::vector<HistoryColumn>& columns, const RunProbe& probe,
-                                          const std::optional<Axis>& axis) {
+                                          const std::optional<judge::Axis>& axis) {
   const Vec3 outward = axis && probe.kind == "structure" ? axis->outward(probe.point) : Vec3(Vec3::Zero());
   if (outward.isZero()) return columns;
   std::vector<HistoryColumn> result;
-  for (const HistoryColumn& column : columns) {
-    const std::string name = column.name.size() > 2 ? column.name.substr(0, column.name.size() - 2) : "";
-    const auto direction = std::string("xyz").find(column.name.back());
-    if ((name != "displacement" && name != "velocity") || direction == std::string::npos) {
-      result.push_back(column);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::string name = columns[c].name.ends_with("_x") ? columns[c].name.substr(0, columns[c].name.size() - 2) : "";
+    const auto is = [&](std::size_t k, const char* end) { return k < columns.size() && columns[k].name == name + end; };
+    if ((name != "displacement" && name != "velocity") || !is(c + 1, "_y")) {
+      result.push_back(columns[c]);
       continue;
     }
-    const double share = outward[static_cast<int>(direction)];
-    if (direction == 0) {
-      result.push_back({"radial " + name, column.unit, {column.series.t, std::vector<double>(column.series.y.size(), 0.0)}});
-    } else if (result.empty() || result.back().name != "radial " + name) {
-      result.push_back(column);  // components that are not complete
-      continue;
-    }
-    Series& radial = result.back().series;
-    radial.t.resize(std::min(radial.t.size(), column.series.t.size()));
-    radial.y.resize(radial.t.size());
-    for (std::size_t i = 0; i < radial.y.size(); ++i) radial.y[i] += share * column.series.y[i];
+    const bool has_z = is(c + 2, "_z");
+    result.push_back(
+        {"radial " + name, columns[c].unit,
+         judge::radial({columns[c].series, columns[c + 1].series, has_z ? columns[c + 2].series : Series{}}, outward)});
+    c += has_z ? 2 : 1;
   }
   return result;
 }
@@ -276,16 +235,16 @@ bool is_at_time(const std::string& metric) {
 }
 
 /// The times of a reference table's rows within 0..end.
-std::vector<double> reference_times(const output::ReferenceTable& table, double end) {
+std::vector<double> reference_times(const judge::ReferenceTable& table, double end) {
   std::set<double> times;
-  for (const output::ReferenceTable::Row& row : table.rows)
+  for (const judge::ReferenceTable::Row& row : table.rows)
     for (const char* quantity : timed_metrics)
       if (const double time = time_of_metric(row.metric, quantity); time > 0 && time <= end * (1 + 1e-9)) times.insert(time);
   return {times.begin(), times.end()};
 }
 
 void drop_differences(ComparedBlock& block) {
-  for (output::ComparedRow& row : block.rows) {
+  for (ComparedRow& row : block.rows) {
     std::fill(row.from_first.begin(), row.from_first.end(), nan);
     std::fill(row.from_reference.begin(), row.from_reference.end(), nan);
   }
@@ -302,11 +261,11 @@ std::vector<ComparedBlock> history_blocks(const std::vector<Compared>& all, cons
   for (const Compared& each : all) {
     if (each.quantity.count() < 2) continue;
     if (is_pressure(each)) {
-      blocks.push_back(output::largest_value(each.quantity));
+      blocks.push_back(largest_value(each.quantity));
       for (const Compared& more : derived(each))
-        blocks.push_back(output::values_at(more.quantity, times, more.quantity.name != "impulse"));
+        blocks.push_back(values_at(more.quantity, times, more.quantity.name != "impulse"));
     } else if (shown_at_times(each)) {
-      blocks.push_back(output::values_at(each.quantity, times, each.kind == "structure"));
+      blocks.push_back(values_at(each.quantity, times, each.kind == "structure"));
       if (is_error(each)) drop_differences(blocks.back());
     }
   }
@@ -337,7 +296,7 @@ ComparedBlock result_block(const std::vector<Run>& runs) {
     }
     const std::string label = spoken(name.substr(0, name.size() - std::string(end.name).size()));
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
-      block.rows.push_back(output::compared(label, end.unit, std::move(values)));
+      block.rows.push_back(compared(label, end.unit, std::move(values)));
   }
   return block;
 }
@@ -347,7 +306,7 @@ void add_row(ComparedBlock& block, const std::vector<Run>& runs, const char* lab
   std::vector<double> values;
   for (const Run& run : runs) values.push_back(value(run.folder.record));
   if (!std::all_of(values.begin(), values.end(), [](double each) { return std::isnan(each); }))
-    block.rows.push_back(output::compared(label, unit, std::move(values)));
+    block.rows.push_back(compared(label, unit, std::move(values)));
 }
 
 ComparedBlock cost_block(const std::vector<Run>& runs) {
@@ -385,7 +344,7 @@ ComparedBlock norm_block(const std::vector<Compared>& all) {
       quantities.push_back(each.quantity);
       if (is_pressure(each)) quantities.push_back(derived(each).back().quantity);  // the impulse, which no spike disturbs
     }
-  return output::difference_norms(quantities);
+  return difference_norms(quantities);
 }
 
 // ------------------------------------------------------------------------------------------------ what is said
@@ -401,7 +360,7 @@ std::string runs_text(const std::vector<Run>& runs, const std::vector<std::strin
 }
 
 /// The settings that differ, the first of them only.
-std::string settings_text(const std::vector<output::DifferingSetting>& settings, const std::vector<std::string>& labels) {
+std::string settings_text(const std::vector<DifferingSetting>& settings, const std::vector<std::string>& labels) {
   constexpr std::size_t most = 12, longest_value = 24;
   if (settings.empty()) return "\nno setting differs\n";
   const auto shown = std::min(most, settings.size());
@@ -422,30 +381,30 @@ std::string settings_text(const std::vector<output::DifferingSetting>& settings,
   return text;
 }
 
-std::string settings_csv(const std::vector<output::DifferingSetting>& settings) {
+std::string settings_csv(const std::vector<DifferingSetting>& settings) {
   std::string text;
-  for (const output::DifferingSetting& setting : settings) {
+  for (const DifferingSetting& setting : settings) {
     std::vector<std::string> cells{"setting", setting.key, ""};
     cells.insert(cells.end(), setting.values.begin(), setting.values.end());
     cells.resize(cells.size() + 2 * setting.values.size());  // no reference, no differences
-    text += output::csv_row(cells);
+    text += csv_row(cells);
   }
   return text;
 }
 
 /// A block per source of the reference table, for comparison.csv.
-std::vector<ComparedBlock> reference_blocks(const std::vector<Run>& runs, const output::ReferenceTable& table) {
+std::vector<ComparedBlock> reference_blocks(const std::vector<Run>& runs, const judge::ReferenceTable& table) {
   std::vector<ComparedBlock> blocks;
   for (std::size_t s = 0; s < table.sources.size(); ++s) {
     blocks.push_back({"reference " + table.sources[s], {}});
-    for (const output::ReferenceTable::Row& row : table.rows) {
+    for (const judge::ReferenceTable::Row& row : table.rows) {
       std::vector<double> values;
       for (const Run& run : runs) {
         const double* value = output::find_number(run.folder.record.metrics, row.metric);
         values.push_back(value ? row.scale * *value : nan);
       }
       if (!std::isnan(row.values[s].value))
-        blocks.back().rows.push_back(output::compared(row.label, row.unit, std::move(values), 0, row.values[s].value));
+        blocks.back().rows.push_back(compared(row.label, row.unit, std::move(values), 0, row.values[s].value));
     }
   }
   return blocks;
@@ -454,7 +413,7 @@ std::vector<ComparedBlock> reference_blocks(const std::vector<Run>& runs, const 
 /// The lines of curves.csv of one curve.
 std::string curve_lines(const Compared& curve, const std::string& label, const Series& series) {
   const Quantity& quantity = curve.quantity;
-  std::string head = output::csv_row({quantity.probe, curve.kind, quantity.name, quantity.unit, label});
+  std::string head = csv_row({quantity.probe, curve.kind, quantity.name, quantity.unit, label});
   head.back() = ',';  // the line goes on
   std::string text;
   char numbers[64];
@@ -469,7 +428,7 @@ std::string curve_lines(const Compared& curve, const std::string& label, const S
 /// curves.csv: every history that two runs or more have, one sample a line, for plots; and the points that the sources of
 /// a reference table give of the compared probe's motion.
 std::string curves_csv(const std::vector<Compared>& all, const std::vector<std::string>& labels,
-                       const std::optional<output::ReferenceTable>& table) {
+                       const std::optional<judge::ReferenceTable>& table) {
   std::string text = "probe,kind,quantity,unit,run,time [s],value\n";
   const auto add = [&](const Compared& each) {
     for (std::size_t r = 0; r < labels.size(); ++r) text += curve_lines(each, labels[r], each.quantity.runs[r]);
@@ -485,7 +444,7 @@ std::string curves_csv(const std::vector<Compared>& all, const std::vector<std::
     if (!table || !motion || !met.insert(each.quantity.name).second) continue;  // only of the first probe: the compared one
     for (std::size_t s = 0; s < table->sources.size(); ++s) {
       Series points;
-      for (const output::ReferenceTable::Row& row : table->rows) {
+      for (const judge::ReferenceTable::Row& row : table->rows) {
         const double time = time_of_metric(row.metric, each.column == "velocity" ? "wall_velocity_" : "displacement_");
         if (!std::isnan(time) && !std::isnan(row.values[s].value)) points.append(time, row.values[s].value / row.scale);
       }
@@ -511,22 +470,22 @@ void require_common(const std::vector<Run>& runs, const std::vector<Compared>& a
 
 }  // namespace
 
-int compare_runs(const CompareArguments& arguments) {
+void compare_runs(const CompareOptions& options) {
   Mistakes mistakes;
   std::vector<std::string> notes;
-  mistakes.collect([&] { output::require_unused_folder(arguments.output, arguments.force); });
+  mistakes.collect([&] { output::require_unused_folder(options.output, options.force); });
   std::vector<double> times;
-  if (!arguments.times.empty()) mistakes.collect([&] { times = parsed_times(arguments.times); });
-  std::vector<std::string> labels = arguments.labels.empty() ? std::vector<std::string>() : split(arguments.labels);
+  if (!options.times.empty()) mistakes.collect([&] { times = parsed_times(options.times); });
+  std::vector<std::string> labels = options.labels.empty() ? std::vector<std::string>() : split(options.labels);
   if (!labels.empty()) {
     const std::set<std::string> distinct(labels.begin(), labels.end());
-    if (labels.size() != arguments.runs.size() || distinct.size() != labels.size() || distinct.contains(""))
-      mistakes.add("--label " + arguments.labels + ": give one name for each of the " + std::to_string(arguments.runs.size()) +
+    if (labels.size() != options.runs.size() || distinct.size() != labels.size() || distinct.contains(""))
+      mistakes.add("--label " + options.labels + ": give one name for each of the " + std::to_string(options.runs.size()) +
                    " runs, no two alike, with commas between them");
   }
   std::vector<Run> runs;
   std::set<fs::path> seen;
-  for (const std::string& folder : arguments.runs)
+  for (const std::string& folder : options.runs)
     mistakes.collect([&] {
       std::error_code error;
       if (!seen.insert(fs::weakly_canonical(folder, error)).second) throw UsageError(folder + " is given twice; leave one out");
@@ -534,13 +493,13 @@ int compare_runs(const CompareArguments& arguments) {
       run.scene = read_resolved(run.folder.settings, (run.folder.path / "resolved.toml").string());
       runs.push_back(std::move(run));
     });
-  Reference reference;
-  mistakes.collect([&] { reference = read_reference(arguments.reference); });
+  judge::Reference reference;
+  if (!options.reference.empty()) mistakes.collect([&] { reference = judge::read_reference(options.reference); });
   mistakes.raise();
 
   std::vector<Compared> all = gather(runs, notes);
   require_common(runs, all);
-  attach_reference(all, reference.history, arguments.reference, notes);
+  attach_reference(all, reference.history, options.reference, notes);
 
   double first_end = std::numeric_limits<double>::infinity(), last_end = 0;
   for (const Run& run : runs) {
@@ -550,28 +509,28 @@ int compare_runs(const CompareArguments& arguments) {
     if (record.status != "done") notes.push_back(run.folder.path.string() + " was " + record.status + ": " + record.message);
   }
   if (!times.empty() && times.front() > last_end * (1 + 1e-9))
-    throw UsageError("--at " + arguments.times +
+    throw UsageError("--at " + options.times +
                      output::print(": no run reaches these times; the longest ends at %.6g us", 1e6 * last_end));
   if (times.empty() && reference.table) times = reference_times(*reference.table, first_end);
-  if (times.empty()) times = output::round_times(0, first_end);
+  if (times.empty()) times = round_times(0, first_end);
 
-  std::vector<output::LabelledMetrics> metrics;
-  std::vector<output::RunSettings> settings;
+  std::vector<judge::LabelledMetrics> metrics;
+  std::vector<RunSettings> settings;
   std::vector<std::string> names;
   for (const Run& run : runs) {
     settings.push_back(run.scene.settings);
     names.push_back(run.folder.path.string());
   }
-  const std::vector<output::DifferingSetting> differing = output::differing_settings(settings);
-  if (labels.empty()) labels = output::run_labels(differing, names);
+  const std::vector<DifferingSetting> differing = differing_settings(settings);
+  if (labels.empty()) labels = run_labels(differing, names);
   for (std::size_t r = 0; r < runs.size(); ++r) metrics.push_back({labels[r], runs[r].folder.record.metrics});
   if (reference.table &&
-      std::none_of(reference.table->rows.begin(), reference.table->rows.end(), [&](const output::ReferenceTable::Row& row) {
-        return std::any_of(metrics.begin(), metrics.end(), [&](const output::LabelledMetrics& run) {
+      std::none_of(reference.table->rows.begin(), reference.table->rows.end(), [&](const judge::ReferenceTable::Row& row) {
+        return std::any_of(metrics.begin(), metrics.end(), [&](const judge::LabelledMetrics& run) {
           return output::find_number(run.metrics, row.metric) != nullptr;
         });
       }))
-    throw UsageError(arguments.reference +
+    throw UsageError(options.reference.string() +
                      ": none of its metrics is a result of these runs; give the table of their scenes' "
                      "comparison, or a history");
 
@@ -585,27 +544,25 @@ int compare_runs(const CompareArguments& arguments) {
     if (!block.rows.empty()) blocks.push_back(std::move(block));
   const ComparedBlock norms = norm_block(all);
 
-  std::string text = runs_text(runs, labels) + settings_text(differing, labels) + output::format_blocks(blocks, labels);
-  if (!norms.rows.empty()) text += output::format_blocks({norms}, labels);  // narrow numbers, long names: widths of its own
+  std::string text = runs_text(runs, labels) + settings_text(differing, labels) + format_blocks(blocks, labels);
+  if (!norms.rows.empty()) text += format_blocks({norms}, labels);  // narrow numbers, long names: widths of its own
   blocks.push_back(norms);
   if (reference.table)
     text += "\nbeside the reference; after each source's value every run's difference from it\n" +
-            output::format_comparison(metrics, *reference.table);
+            judge::format_comparison(metrics, *reference.table);
   text += "\nPercentages: difference from " + labels.front() +
           (reference.history.empty() ? "" : "; in brackets from the reference") + ". Definitions: docs/outputs.md\n";
   for (const std::string& note : notes) text += "note: " + note + "\n";
 
-  const fs::path folder = arguments.output;
+  const fs::path folder = options.output;
   output::make_folder(folder);
   if (reference.table)
     for (ComparedBlock& block : reference_blocks(runs, *reference.table)) blocks.push_back(std::move(block));
-  output::write_text_atomically(folder / "comparison.csv",
-                                output::csv_header(labels) + settings_csv(differing) + output::blocks_csv(blocks));
+  output::write_text_atomically(folder / "comparison.csv", csv_header(labels) + settings_csv(differing) + blocks_csv(blocks));
   output::write_text_atomically(folder / "curves.csv", curves_csv(all, labels, reference.table));
   std::printf("%s", text.c_str());
   std::printf("%s and curves.csv are written. Pictures: /usr/bin/python3 scripts/plot.py --compare %s\n",
               (folder / "comparison.csv").c_str(), folder.c_str());
-  return exit_done;
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace undex::output {
+namespace undex::study {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<bool> pareto_front(const std::vector<double>& costs, const std::vect
   return front;
 }
 
-}  // namespace undex::output
+}  // namespace undex::study

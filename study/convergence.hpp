@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace undex::output {
+namespace undex::study {
 
 /// Order p of an error ~ h^p from two resolutions: log(e1/e2)/log(h1/h2). NaN unless all are positive and h1 differs from h2.
 double observed_order(double h1, double e1, double h2, double e2);
@@ -16,4 +16,4 @@ double fitted_order(const std::vector<double>& h, const std::vector<double>& err
 /// are not on it and beat nobody.
 std::vector<bool> pareto_front(const std::vector<double>& costs, const std::vector<double>& errors);
 
-}  // namespace undex::output
+}  // namespace undex::study

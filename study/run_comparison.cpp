@@ -5,9 +5,21 @@
 
 #include "output/text_table.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 namespace {
+
+using output::aligned;
+using output::difference;
+using output::difference_text;
+using output::Extremum;
+using output::Norms;
+using output::number;
+using output::padded_left;
+using output::padded_right;
+using output::print;
+using output::Series;
+using output::width;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
@@ -255,4 +267,4 @@ std::string blocks_csv(const std::vector<ComparedBlock>& blocks) {
   return text;
 }
 
-}  // namespace undex::output
+}  // namespace undex::study

@@ -8,14 +8,14 @@
 
 #include "output/series.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 /// One quantity as each run recorded it.
 struct Quantity {
-  std::string probe;         ///< whose: a probe's name, or "energy"
-  std::string name, unit;    ///< "radial displacement", "m"
-  std::vector<Series> runs;  ///< one per run; empty where the run does not have it
-  Series reference;          ///< may be empty
+  std::string probe;                 ///< whose: a probe's name, or "energy"
+  std::string name, unit;            ///< "radial displacement", "m"
+  std::vector<output::Series> runs;  ///< one per run; empty where the run does not have it
+  output::Series reference;          ///< may be empty
 
   std::string title() const { return probe + ": " + name; }
   /// How many runs have it.
@@ -77,4 +77,4 @@ std::string blocks_csv(const std::vector<ComparedBlock>& blocks);
 /// One line of CSV; cells are quoted where they must be.
 std::string csv_row(const std::vector<std::string>& cells);
 
-}  // namespace undex::output
+}  // namespace undex::study

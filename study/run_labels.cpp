@@ -7,9 +7,11 @@
 
 #include "output/text_table.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 namespace {
+
+using output::print;
 
 const std::string* find(const RunSettings& settings, const std::string& key) {
   for (const auto& [name, value] : settings)
@@ -87,4 +89,4 @@ std::vector<std::string> run_labels(const std::vector<DifferingSetting>& setting
   return labels;
 }
 
-}  // namespace undex::output
+}  // namespace undex::study

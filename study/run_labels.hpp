@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace undex::output {
+namespace undex::study {
 
 /// A run's settings in the order of the file: dotted key ("resolution.spacing", "bodies.water.material.name") and value as
 /// text. Lengths are in metres.
@@ -25,4 +25,4 @@ std::vector<DifferingSetting> differing_settings(const std::vector<RunSettings>&
 /// tells apart also get their `names` (their folders).
 std::vector<std::string> run_labels(const std::vector<DifferingSetting>& settings, const std::vector<std::string>& names);
 
-}  // namespace undex::output
+}  // namespace undex::study

@@ -6,7 +6,7 @@
 #include "scene/document.hpp"
 #include "scene/numbers.hpp"
 
-namespace undex::app {
+namespace undex::study {
 namespace {
 
 using scene::Entry;
@@ -43,7 +43,7 @@ bool silent(const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end() || key == "source" || key.ends_with(".source");
 }
 
-void flatten(const Node& node, const std::string& path, output::RunSettings& settings) {
+void flatten(const Node& node, const std::string& path, RunSettings& settings) {
   for (const Entry* entry : in_file_order(node)) {
     const std::string key = path.empty() ? entry->key : path + "." + entry->key;
     if (silent(key)) continue;
@@ -75,13 +75,6 @@ Vec3 vector_at(const Node& table, const char* key) {
 
 }  // namespace
 
-Vec3 Axis::outward(const Vec3& point) const {
-  Vec3 radius = point - center;
-  radius[direction] = 0;
-  const double length = radius.norm();
-  return length > 0 ? Vec3(radius / length) : Vec3(Vec3::Zero());
-}
-
 ResolvedScene read_resolved(const std::string& text, const std::string& file) {
   const Node root = scene::parse_toml(text, file);
   ResolvedScene result;
@@ -100,9 +93,9 @@ ResolvedScene read_resolved(const std::string& text, const std::string& file) {
   if (const Node* shape = body ? body->find("shape") : nullptr) {
     const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
     if (type == "tube" || type == "rod" || type == "cylinder")
-      result.axis = Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+      result.axis = judge::Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
   }
   return result;
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

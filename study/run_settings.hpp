@@ -7,33 +7,26 @@
 #include <vector>
 
 #include "core/vector.hpp"
+#include "judge/radial.hpp"
 #include "study/run_labels.hpp"
 
-namespace undex::app {
+namespace undex::study {
 
 struct RunProbe {
   std::string kind;           ///< "fluid", "wall", "structure"
   Vec3 point = Vec3::Zero();  ///< [m]
 };
 
-/// The axis of a tube or a rod.
-struct Axis {
-  int direction = 2;
-  Vec3 center = Vec3::Zero();
-  /// Unit vector away from the axis at a point; zero on the axis.
-  Vec3 outward(const Vec3& point) const;
-};
-
 struct ResolvedScene {
   int dimension = 3;
-  output::RunSettings settings;  ///< all that bears on the physics and its discretisation
+  RunSettings settings;  ///< all that bears on the physics and its discretisation
   std::map<std::string, RunProbe> probes;
   std::vector<std::string> probe_order;  ///< as in the scene
   std::string compared_probe;            ///< comparison.probe; may be empty
-  std::optional<Axis> axis;              ///< of the structure, where it is round
+  std::optional<judge::Axis> axis;       ///< of the structure, where it is round
 };
 
 /// Reads the text of a resolved.toml. Throws SceneError, naming `file`, where it is not TOML.
 ResolvedScene read_resolved(const std::string& text, const std::string& file);
 
-}  // namespace undex::app
+}  // namespace undex::study

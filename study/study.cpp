@@ -13,21 +13,20 @@
 #include <map>
 #include <memory>
 
+#include "judge/comparisons.hpp"
 #include "study/child_process.hpp"
-#include "app/commands.hpp"
+#include "study/study.hpp"
 #include "study/study_progress.hpp"
 #include "study/study_runs.hpp"
-#include "app/version.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/text_table.hpp"
 #include "scene/suggestion.hpp"
 
-namespace undex::app {
+namespace undex::study {
 namespace {
 
 namespace fs = std::filesystem;
-using output::StudyRow;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -64,7 +63,7 @@ class Lock {
   int file_;
 };
 
-using References = std::map<fs::path, output::ReferenceTable>;
+using References = std::map<fs::path, judge::ReferenceTable>;
 
 /// The reference tables of the scenes, where an error is a difference from one of their sources.
 References read_references(const scene::Study& study) {
@@ -80,7 +79,7 @@ References read_references(const scene::Study& study) {
         break;
       }
       const auto [table, fresh] = tables.try_emplace(run.reference);
-      if (fresh) table->second = output::read_reference_table(run.reference);
+      if (fresh) table->second = judge::read_reference_table(run.reference);
       const std::vector<std::string>& sources = table->second.sources;
       std::vector<std::string> metrics;
       for (const auto& row : table->second.rows) metrics.push_back(row.metric);
@@ -194,19 +193,19 @@ class Work {
 
   const std::vector<RunState>& states() const { return states_; }
 
-  output::StudyTable table() const {
-    output::StudyTable table{study_.title, {}, study_.resolution ? study_.axes[*study_.resolution].name : "", {}, rows_};
+  StudyTable table() const {
+    StudyTable table{study_.title, {}, study_.resolution ? study_.axes[*study_.resolution].name : "", {}, rows_};
     for (const scene::StudyAxis& axis : study_.axes) table.axes.push_back(axis.name);
     for (const scene::StudyError& error : study_.errors) table.errors.push_back(error.label);
     return table;
   }
 
   void write_tables() const {
-    const output::StudyTable table = this->table();
-    output::write_text_atomically(folder_ / "study.csv", output::study_csv(table));
-    const std::vector<output::ObservedOrders> orders = output::observed_orders(table);
+    const StudyTable table = this->table();
+    output::write_text_atomically(folder_ / "study.csv", study_csv(table));
+    const std::vector<ObservedOrders> orders = observed_orders(table);
     if (orders.empty()) fs::remove(folder_ / "order.csv");
-    else output::write_text_atomically(folder_ / "order.csv", output::order_csv(orders));
+    else output::write_text_atomically(folder_ / "order.csv", order_csv(orders));
   }
 
   /// Runs that are in folders of other names get their own.
@@ -334,7 +333,7 @@ class Work {
       fs::remove_all(repetition_folder(job.run), ignored);
       fs::remove(state.folder / "repetition.txt", ignored);
     } else {
-      output::StudyOutcome outcome{"", "", {end.cpu_time_s}, {end.wall_time_s}};
+      StudyOutcome outcome{"", "", {end.cpu_time_s}, {end.wall_time_s}};
       if (job.ended_at > 0 && end.exit_code != 0) {
         outcome.status = "limit";
         outcome.message = job.cpu_limit > 0 ? "ended at cpu_limit = " + output::print("%g", job.cpu_limit) + " s"
@@ -363,7 +362,7 @@ class Work {
         if (outcome.message.empty()) outcome.message = summary->message;
       }
       if (outcome.status.empty()) outcome.status = "interrupted";
-      output::write_outcome(state.folder / "outcome.json", outcome);
+      write_outcome(state.folder / "outcome.json", outcome);
       state = run_state(state.folder, study_, run);
       if (state.reason.starts_with("changed")) {  // also what is found next time
         state.status = "failed";
@@ -371,7 +370,7 @@ class Work {
       }
     }
     if (job.repetition)
-      output::write_outcome(state.folder / "outcome.json", {state.status, state.message, state.cpu_times, state.wall_times});
+      write_outcome(state.folder / "outcome.json", {state.status, state.message, state.cpu_times, state.wall_times});
     rows_[job.run] = row_of(study_, run, state, references_);
     return signals == 0 && state.status == "done" && state.cpu_times.size() < std::size_t(study_.repeats);
   }
@@ -420,7 +419,7 @@ std::string axes_text(const scene::Study& study) {
 }
 
 /// Errors that runs do not have though they are done: one note.
-std::string missing_metrics(const scene::Study& study, const output::StudyTable& table) {
+std::string missing_metrics(const scene::Study& study, const StudyTable& table) {
   std::vector<std::string> names{"mass_error", "momentum_error", "energy_error", "interface_energy_error",
                                  "interface_impulse_error"};
   const std::size_t ledgers = names.size();
@@ -450,7 +449,7 @@ std::string missing_metrics(const scene::Study& study, const output::StudyTable&
 }
 
 /// Runs that another program computed.
-std::string other_programs(const output::StudyTable& table, const std::string& program) {
+std::string other_programs(const StudyTable& table, const std::string& program) {
   std::size_t others = 0;
   for (const StudyRow& row : table.rows) others += !row.record.program.empty() && row.record.program != program;
   return others == 0 ? ""
@@ -467,19 +466,19 @@ std::string left_over_text(const std::vector<fs::path>& folders) {
 
 }  // namespace
 
-int run_study(const StudyArguments& arguments) {
-  const scene::Study study = scene::read_study(arguments.study);
+int run_study(const StudyOptions& options) {
+  const scene::Study study = scene::read_study(options.study, judge::comparison_kinds());
   const References references = read_references(study);
-  const fs::path folder = arguments.output.empty() ? study.output : fs::path(arguments.output);
+  const fs::path folder = options.output.empty() ? study.output : options.output;
   require_study_folder(folder);
-  require_match(study, arguments.only);
+  require_match(study, options.only);
   std::unique_ptr<Lock> lock;
-  if (!arguments.list) {
+  if (!options.list) {
     output::make_folder(folder);
     lock = std::make_unique<Lock>(folder);
   }
 
-  Work work(study, references, folder, arguments.quiet);
+  Work work(study, references, folder, options.quiet);
   std::vector<std::size_t> to_compute;
   std::map<std::string, std::size_t> reasons;
   std::vector<std::vector<std::string>> plan;
@@ -487,10 +486,10 @@ int run_study(const StudyArguments& arguments) {
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
     const RunState& state = work.states()[r];
     const bool repeat = state.status == "done" && state.cpu_times.size() < std::size_t(study.repeats);
-    if (!chosen(study.runs[r].name, arguments.only)) continue;
+    if (!chosen(study.runs[r].name, options.only)) continue;
     ++matched;
-    const bool wanted = !state.finished || repeat || arguments.again;
-    const std::string reason = !state.finished ? state.reason : arguments.again ? "again" : "timed again";
+    const bool wanted = !state.finished || repeat || options.again;
+    const std::string reason = !state.finished ? state.reason : options.again ? "again" : "timed again";
     if (wanted) {
       to_compute.push_back(r);
       ++reasons[reason.substr(0, reason.find(':'))];
@@ -504,44 +503,43 @@ int run_study(const StudyArguments& arguments) {
   std::string why;
   for (const auto& [reason, count] : reasons) why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
   text += (why.empty() ? "" : " (" + why + ")") + "\n";
-  if (arguments.list) {
+  if (options.list) {
     std::printf("%s%s%s", text.c_str(), output::aligned(plan, 3).c_str(),
                 left_over_text(left_over(work.states(), study, folder / "runs")).c_str());
     return exit_done;
   }
-  if (!arguments.quiet) std::printf("%s", text.c_str());
+  if (!options.quiet) std::printf("%s", text.c_str());
   std::fflush(stdout);
 
   output::make_folder(folder / "runs");
   output::write_text_atomically(folder / "study.toml", output::text_of(study.file).value_or(""));
-  output::write_text_atomically(folder / "study.json", output::study_json(work.table()));
+  output::write_text_atomically(folder / "study.json", study_json(work.table()));
   work.rename_folders();
   work.write_tables();
-  if (arguments.again) work.forget(to_compute);
-  work.compute(to_compute, arguments.jobs);
+  if (options.again) work.forget(to_compute);
+  work.compute(to_compute, options.jobs);
   work.write_tables();
 
-  const output::StudyTable table = work.table();
+  const StudyTable table = work.table();
   std::size_t failed = 0;
   for (const StudyRow& row : table.rows) failed += row.status == "failed" || row.status == "refused";
-  if (!arguments.quiet) {
-    std::printf("\n%s", output::study_text(table).c_str());
-    if (const auto orders = output::observed_orders(table); !orders.empty())
-      std::printf("\n%s", output::order_text(orders).c_str());
+  if (!options.quiet) {
+    std::printf("\n%s", study_text(table).c_str());
+    if (const auto orders = observed_orders(table); !orders.empty()) std::printf("\n%s", order_text(orders).c_str());
     std::printf("\n");
     for (const StudyRow& row : table.rows)
       if (!row.message.empty() && row.status != "not run")
         std::printf("%s, %s: %s\n", row.name.c_str(), row.status.c_str(), row.message.c_str());
-    std::printf("%s%s%s", missing_metrics(study, table).c_str(), other_programs(table, version_line()).c_str(),
+    std::printf("%s%s%s", missing_metrics(study, table).c_str(), other_programs(table, options.program).c_str(),
                 left_over_text(left_over(work.states(), study, folder / "runs")).c_str());
     std::printf("%s and order.csv are written. Pictures: /usr/bin/python3 scripts/plot_study.py %s\n",
                 (folder / "study.csv").c_str(), folder.c_str());
   }
   if (signals > 0) {
-    if (!arguments.quiet) std::printf("interrupted; the same command goes on where this one ended\n");
+    if (!options.quiet) std::printf("interrupted; the same command goes on where this one ended\n");
     return 128 + first_signal;
   }
   return failed > 0 ? exit_internal : exit_done;
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

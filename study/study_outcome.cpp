@@ -5,13 +5,13 @@
 
 #include "output/files.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 void write_outcome(const std::filesystem::path& path, const StudyOutcome& outcome) {
   const nlohmann::ordered_json json{{"status", outcome.status},           {"message", outcome.message},
                                     {"cpu_times_s", outcome.cpu_times_s}, {"wall_times_s", outcome.wall_times_s},
                                     {"cpu_limit_s", outcome.cpu_limit_s}, {"wall_limit_s", outcome.wall_limit_s}};
-  write_text_atomically(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  output::write_text_atomically(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 std::optional<StudyOutcome> read_outcome(const std::filesystem::path& path) {
@@ -26,4 +26,4 @@ std::optional<StudyOutcome> read_outcome(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace undex::output
+}  // namespace undex::study

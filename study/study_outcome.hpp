@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace undex::output {
+namespace undex::study {
 
 struct StudyOutcome {
   std::string status;  ///< see StudyRow
@@ -20,4 +20,4 @@ void write_outcome(const std::filesystem::path& path, const StudyOutcome& outcom
 /// Nothing where there is none, or none that can be understood.
 std::optional<StudyOutcome> read_outcome(const std::filesystem::path& path);
 
-}  // namespace undex::output
+}  // namespace undex::study

@@ -10,7 +10,7 @@
 
 #include "output/text_table.hpp"
 
-namespace undex::app {
+namespace undex::study {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -24,7 +24,7 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-RunTimes::RunTimes(const scene::Study& study, const std::vector<output::StudyRow>& rows) {
+RunTimes::RunTimes(const scene::Study& study, const std::vector<StudyRow>& rows) {
   struct Known {
     double h, factor;
   };
@@ -38,7 +38,7 @@ RunTimes::RunTimes(const scene::Study& study, const std::vector<output::StudyRow
     const auto [known, fresh] = curves.emplace(rows[r].curve, Known{rows[r].h, factor});
     if (!fresh && !(rows[r].h >= known->second.h)) known->second = {rows[r].h, factor};
   }
-  for (const output::StudyRow& row : rows) {
+  for (const StudyRow& row : rows) {
     const auto known = curves.find(row.curve);
     factors_.push_back(known == curves.end() ? nan : known->second.factor);
   }
@@ -51,7 +51,7 @@ double RunTimes::expected(std::size_t run) const { return weights_[run] * (std::
 StudyProgress::StudyProgress(std::size_t to_compute, bool quiet)
     : total_(to_compute), quiet_(quiet), terminal_(isatty(fileno(stdout)) != 0), start_(Clock::now()), last_(start_) {}
 
-void StudyProgress::line(const output::StudyRow& row, const std::vector<std::string>& errors, double seconds_left) {
+void StudyProgress::line(const StudyRow& row, const std::vector<std::string>& errors, double seconds_left) {
   ++ended_;
   if (quiet_) return;
   clear();
@@ -94,4 +94,4 @@ void StudyProgress::clear() {
   shown_ = false;
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

@@ -10,13 +10,13 @@
 #include "study/study_table.hpp"
 #include "scene/study.hpp"
 
-namespace undex::app {
+namespace undex::study {
 
 /// Expected wall times of runs [s]: time ~ h^-(dimension + 1) along a curve, with the factor of its finest run that is known;
 /// where none of the curve is, the median factor of all; NaN where nothing is known.
 class RunTimes {
  public:
-  RunTimes(const scene::Study& study, const std::vector<output::StudyRow>& rows);
+  RunTimes(const scene::Study& study, const std::vector<StudyRow>& rows);
   double expected(std::size_t run) const;
 
  private:
@@ -29,7 +29,7 @@ class StudyProgress {
  public:
   StudyProgress(std::size_t to_compute, bool quiet);
   /// A run has ended.
-  void line(const output::StudyRow& row, const std::vector<std::string>& errors, double seconds_left);
+  void line(const StudyRow& row, const std::vector<std::string>& errors, double seconds_left);
   /// Where somebody is watching, a few times a second.
   bool bar_is_due() const;
   /// With the runs under way.
@@ -44,4 +44,4 @@ class StudyProgress {
   Clock::time_point start_, last_;
 };
 
-}  // namespace undex::app
+}  // namespace undex::study

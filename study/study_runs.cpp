@@ -11,7 +11,7 @@
 #include "output/files.hpp"
 #include "study/run_labels.hpp"
 
-namespace undex::app {
+namespace undex::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ std::string settings_of(std::string resolved) {
 std::string what_changed(const std::string& before, const std::string& now, const std::string& file) {
   try {
     std::string keys;
-    const auto differing = output::differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
+    const auto differing = differing_settings({read_resolved(before, file).settings, read_resolved(now, file).settings});
     for (std::size_t k = 0; k < differing.size() && k < 3; ++k) keys += (k > 0 ? ", " : "") + differing[k].key;
     if (differing.size() > 3) keys += ", ...";
     return "changed: " + (keys.empty() ? "threads, probes, output or comparison" : keys);
@@ -50,7 +50,7 @@ RunState run_state(const fs::path& folder, const scene::Study& study, const scen
     state.reason = "not there";
     return state;
   }
-  const std::optional<output::StudyOutcome> outcome = output::read_outcome(folder / "outcome.json");
+  const std::optional<StudyOutcome> outcome = read_outcome(folder / "outcome.json");
   const bool failed = outcome && (outcome->status == "failed" || outcome->status == "refused");
   if (failed) {
     state.status = outcome->status;
@@ -132,7 +132,7 @@ void clear_run_folder(const fs::path& folder) {
 }
 
 std::vector<double> study_errors(const scene::Study& study, const output::RunRecord& record,
-                                 const std::optional<output::ReferenceTable>& reference) {
+                                 const std::optional<judge::ReferenceTable>& reference) {
   output::NamedNumbers numbers = record.metrics;
   numbers.insert(numbers.end(), {{"mass_error", record.mass_error},
                                  {"momentum_error", record.momentum_error},
@@ -146,7 +146,7 @@ std::vector<double> study_errors(const scene::Study& study, const output::RunRec
     if (!value) continue;
     if (error.source.empty()) errors.back() = std::abs(*value);
     if (error.source.empty() || !reference) continue;
-    for (const output::ReferenceTable::Row& row : reference->rows)
+    for (const judge::ReferenceTable::Row& row : reference->rows)
       for (std::size_t s = 0; s < row.values.size(); ++s)
         if (row.metric == error.metric && reference->sources[s] == error.source)
           errors.back() = std::abs(*value * row.scale - row.values[s].value) / std::abs(row.values[s].value);
@@ -154,4 +154,4 @@ std::vector<double> study_errors(const scene::Study& study, const output::RunRec
   return errors;
 }
 
-}  // namespace undex::app
+}  // namespace undex::study

@@ -11,14 +11,14 @@
 #include "study/study_table.hpp"
 #include "scene/study.hpp"
 
-namespace undex::app {
+namespace undex::study {
 
 /// What stands in the folder of a run.
 struct RunState {
   bool finished = false;  ///< need not be computed again: done, stopped by the numerics, or by a limit that still holds
   std::string reason;     ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
   std::filesystem::path folder;
-  std::string status = "not run";  ///< see output::StudyRow
+  std::string status = "not run";  ///< see StudyRow
   std::string message;
   output::RunRecord record;
   std::vector<double> cpu_times, wall_times;
@@ -40,6 +40,6 @@ void clear_run_folder(const std::filesystem::path& folder);
 
 /// Magnitudes of the study's errors of a run that is done (NaN: it does not have them). `reference` is its scene's table.
 std::vector<double> study_errors(const scene::Study& study, const output::RunRecord& record,
-                                 const std::optional<output::ReferenceTable>& reference);
+                                 const std::optional<judge::ReferenceTable>& reference);
 
-}  // namespace undex::app
+}  // namespace undex::study

@@ -8,9 +8,14 @@
 #include "study/run_comparison.hpp"
 #include "output/text_table.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 namespace {
+
+using output::aligned;
+using output::number;
+using output::print;
+using output::RunRecord;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -160,7 +165,7 @@ std::string study_csv(const StudyTable& table) {
       cells.push_back(found == record.clamps.end() ? "" : std::to_string(found->second));
     }
     for (const std::string& name : metrics) {
-      const double* value = find_number(record.metrics, name);
+      const double* value = output::find_number(record.metrics, name);
       cells.push_back(value ? cell(*value) : "");
     }
     cells.push_back(record.program);
@@ -253,4 +258,4 @@ std::string order_text(const std::vector<ObservedOrders>& orders) {
   return text;
 }
 
-}  // namespace undex::output
+}  // namespace undex::study

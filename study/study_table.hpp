@@ -7,7 +7,7 @@
 
 #include "output/run_record.hpp"
 
-namespace undex::output {
+namespace undex::study {
 
 struct StudyRow {
   std::string name;                                     ///< of the run and of its folder
@@ -17,7 +17,7 @@ struct StudyRow {
   double h = std::numeric_limits<double>::quiet_NaN();  ///< its length on the axis of resolution
   std::string status;  ///< "done", "stopped", "limit", "interrupted", "refused", "failed", "not run"
   std::string message;
-  RunRecord record;                           ///< as far as known
+  output::RunRecord record;                   ///< as far as known
   std::vector<double> cpu_times, wall_times;  ///< [s] of each repetition; the least counts
   std::vector<double> errors;                 ///< magnitudes, NaN where unknown; of runs that are done
 };
@@ -56,4 +56,4 @@ std::string study_json(const StudyTable& table);
 std::string study_text(const StudyTable& table);
 std::string order_text(const std::vector<ObservedOrders>& orders);
 
-}  // namespace undex::output
+}  // namespace undex::study

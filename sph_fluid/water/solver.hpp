@@ -243,7 +243,7 @@ struct Fluid::Implementation : ParticleSet {
   template <class Visit>
   void around(const Vec3& point, double radius_over_h, Visit visit) const;
   /// Shepard average with Wendland's kernel at h = 1.2 spacings, whatever the scheme's own.
-  PointValues at(const Vec3& point) const;
+  FluidPoint at(const Vec3& point) const;
   std::vector<double> field(std::string_view name) const;
   template <class F>
   double largest(F f) const {

@@ -222,9 +222,9 @@ void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visi
   }
 }
 
-PointValues Fluid::Implementation::at(const Vec3& point) const {
+FluidPoint Fluid::Implementation::at(const Vec3& point) const {
   const double shrink = 1.2 / settings.numerics.eta;
-  PointValues values;
+  FluidPoint values;
   double weight = 0;
   around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
     const FluidRow& q = particles.predicted[i];

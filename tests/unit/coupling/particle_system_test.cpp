@@ -50,7 +50,7 @@ TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
   const Settings s = drop(GetParam());
   Fluid fluid(s);
   Solids solids(s);
-  ParticleSystem system(fluid, solids, true);
+  coupling::ParticleSystem system(fluid, solids, true);
   const Vec3 start = fluid.ledger().momentum + solids.ledger().momentum;
   const Ledger first = fluid.ledger();
   long sub_steps = 0, steps = 0;
@@ -92,7 +92,7 @@ TEST_P(Drop, HeavyBlockIsARigidWall) {
       while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
     } else {
       Solids solids(s);
-      ParticleSystem system(fluid, solids, true);
+      coupling::ParticleSystem system(fluid, solids, true);
       while (fluid.time() < 5e-6) system.advance(1.0);
     }
     return fluid.at(Vec3(0.015, 0.015, 0.004)).pressure;

@@ -7,8 +7,10 @@
 #include "core/errors.hpp"
 #include "tests/unit/output/temporary_folder.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 namespace {
+
+using namespace output;
 
 ReferenceTable read(const std::string& text) {
   const TemporaryFolder folder;
@@ -74,4 +76,4 @@ TEST(ComparisonTable, BadFilesAreReportedWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::judge

@@ -1,5 +1,4 @@
-#include "judge/metrics.hpp"
-
+// Metrics of made-up histories and shapes, and of the references that scenes are compared with.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +6,14 @@
 #include <filesystem>
 
 #include "judge/comparison_table.hpp"
+#include "judge/rigid_cylinder.hpp"
+#include "judge/taylor_bar.hpp"
+#include "judge/tube.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 namespace {
+
+using namespace output;
 
 const std::filesystem::path cases = UNDEX_CASES;
 
@@ -170,4 +174,4 @@ TEST(TaylorBarMetrics, ShapeOfACloudOfPoints) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::judge

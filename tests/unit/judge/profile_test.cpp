@@ -8,8 +8,10 @@
 
 #include "tests/unit/output/temporary_folder.hpp"
 
-namespace undex::output {
+namespace undex::judge {
 namespace {
+
+using namespace output;
 
 double value(const NamedNumbers& numbers, const std::string& name) {
   for (const auto& [each, number] : numbers)
@@ -108,8 +110,8 @@ TEST(Profile, MeanTakesItsIntervalAlone) {
 
 TEST(Profile, FilesHaveUnitsAndEveryPoint) {
   const TemporaryFolder folder;
-  write_profile(folder.path / "profile.csv", step(3, 0.5, 0.5));
-  write_exact_profile(folder.path / "exact.csv", step(3, 0.5, 0.5));
+  write_history(folder.path / "profile.csv", profile_table(step(3, 0.5, 0.5)));
+  write_history(folder.path / "exact.csv", exact_profile_table(step(3, 0.5, 0.5)));
   std::ifstream file(folder.path / "profile.csv");
   std::string line;
   std::getline(file, line);
@@ -122,4 +124,4 @@ TEST(Profile, FilesHaveUnitsAndEveryPoint) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::judge

@@ -1,14 +1,17 @@
 // Waves on a plate and in the open: exact answers of made-up histories, and Taylor's formulas.
-#include "judge/wave_metrics.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace undex::output {
+#include "judge/free_field.hpp"
+#include "judge/taylor_plate.hpp"
+
+namespace undex::judge {
 namespace {
+
+using namespace output;
 
 double get(const NamedNumbers& numbers, const std::string& name) {
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
@@ -74,4 +77,4 @@ TEST(BlastMetrics, OutsideOfTheHistoriesIsNaN) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::judge

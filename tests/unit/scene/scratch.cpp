@@ -1,6 +1,7 @@
 #include "scratch.hpp"
 
 #include "core/errors.hpp"
+#include "judge/comparisons.hpp"
 
 #include <unistd.h>
 
@@ -24,6 +25,12 @@ std::filesystem::path Scratch::write(const std::string& text, const std::string&
   std::ofstream(folder_ / name, std::ios::binary) << text;
   return folder_ / name;
 }
+
+Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+  return scene::read(path, judge::comparison_kinds(), overrides);
+}
+
+Study read_study(const std::filesystem::path& path) { return scene::read_study(path, judge::comparison_kinds()); }
 
 Scene read_text(const std::string& text, const std::vector<Override>& overrides) {
   const Scratch scratch;

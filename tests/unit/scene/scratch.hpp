@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/study.hpp"
 
 namespace undex::scene::test {
 
@@ -23,6 +24,10 @@ class Scratch {
  private:
   std::filesystem::path folder_;
 };
+
+/// The readers, with all comparisons that there are.
+Scene read(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
+Study read_study(const std::filesystem::path& path);
 
 Scene read_text(const std::string& text, const std::vector<Override>& overrides = {});
 

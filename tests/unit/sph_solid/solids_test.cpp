@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Descriptions, Both, ::testing::Values(Description::tota
 void set_motion(Solids& solids, const Mat3& M) {
   std::vector<Vec3> impulse(solids.particle_count());
   for (std::size_t i = 0; i < impulse.size(); ++i)
-    impulse[i] = solids.particle_mass(i) * (M * solids.positions()[i] - solids.velocities()[i]);
+    impulse[i] = solids.masses()[i] * (M * solids.positions()[i] - solids.velocities()[i]);
   solids.kick(impulse);
 }
 
@@ -78,7 +78,7 @@ TEST_P(Both, FallsFreely) {
     EXPECT_LT((falls.positions()[i] - rests.positions()[i] - 0.5 * t * t * g).norm(), 1e-10 * 0.05) << i;
     EXPECT_LT((falls.velocities()[i] - rests.velocities()[i] - t * g).norm(), 1e-9 * t * g.norm()) << i;
   }
-  const SolidLedger end = falls.ledger();
+  const BodyLedger end = falls.ledger();
   EXPECT_GT(end.gravity, 0.1 * end.kinetic);
   EXPECT_NEAR(end.balance(), rests.ledger().balance(), 1e-9 * end.kinetic);
 }
@@ -126,8 +126,8 @@ TEST_P(Both, TurningAStressedDiscMakesNoStress) {
     double sum = 0, mass = 0;
     for (std::size_t i = 0; i < solids.particle_count(); ++i) {
       const Vec3 e = solids.positions()[i].normalized();
-      sum += solids.particle_mass(i) * e.dot(solids.stress(i) * e);
-      mass += solids.particle_mass(i);
+      sum += solids.masses()[i] * e.dot(solids.stress(i) * e);
+      mass += solids.masses()[i];
     }
     return sum / mass;
   };
@@ -156,7 +156,7 @@ TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
   Solids solids(s);
   const double start = solids.ledger().kinetic;
   solids.advance(20e-6);
-  const SolidLedger end = solids.ledger();
+  const BodyLedger end = solids.ledger();
   EXPECT_NEAR(end.balance() / start, 1.0, 5e-3);
   EXPECT_GT(end.plastic, 0.6 * start);
   EXPECT_LE(end.external, 0.0);  // the plane takes, and gives nothing
@@ -174,7 +174,7 @@ TEST_P(Both, BarRingsAtLovesFrequency) {
     const std::vector<Vec3> X(solids.positions().begin(), solids.positions().end());
     std::vector<Vec3> impulse(X.size());
     const double k = std::numbers::pi / length;
-    for (std::size_t i = 0; i < X.size(); ++i) impulse[i] = solids.particle_mass(i) * Vec3(0, 0, std::cos(k * X[i][2]));
+    for (std::size_t i = 0; i < X.size(); ++i) impulse[i] = solids.masses()[i] * Vec3(0, 0, std::cos(k * X[i][2]));
     solids.kick(impulse);
     // Love 1888: inertia of the section's own motion slows a bar of side a by (k nu)^2 (a^2 + a^2)/12.
     const double slower = std::sqrt(1 + poisson * poisson * k * k * 2 * (4 * half * half) / 12);
@@ -184,8 +184,7 @@ TEST_P(Both, BarRingsAtLovesFrequency) {
     while (zeros < 3) {
       solids.advance(solids.time() + solids.stable_step());
       double mode = 0;
-      for (std::size_t i = 0; i < X.size(); ++i)
-        mode += solids.particle_mass(i) * solids.velocities()[i][2] * std::cos(k * X[i][2]);
+      for (std::size_t i = 0; i < X.size(); ++i) mode += solids.masses()[i] * solids.velocities()[i][2] * std::cos(k * X[i][2]);
       if (last < 0 && mode >= 0) {
         zero = last_time + (solids.time() - last_time) * last / (last - mode);
         if (zeros++ == 0) first_zero = zero;
@@ -210,11 +209,10 @@ TEST_P(Both, BarsInCollisionExchangeTheirVelocities) {
   s.symmetry.axis = {false, true, true};
   Solids solids(s);
   const std::size_t first = solids.particles_by_body()[0];
-  const SolidLedger start = solids.ledger();
+  const BodyLedger start = solids.ledger();
   solids.advance(4 * length / std::sqrt(young / density));
   Vec3 momentum[2] = {Vec3::Zero(), Vec3::Zero()};
-  for (std::size_t i = 0; i < solids.particle_count(); ++i)
-    momentum[i >= first] += solids.particle_mass(i) * solids.velocities()[i];
+  for (std::size_t i = 0; i < solids.particle_count(); ++i) momentum[i >= first] += solids.masses()[i] * solids.velocities()[i];
   EXPECT_NEAR(momentum[1][0] / start.momentum[0], 1.0, 0.05);
   EXPECT_NEAR((momentum[0][0] + momentum[1][0]) / start.momentum[0], 1.0, 1e-12);
   EXPECT_NEAR(solids.ledger().balance() / start.balance(), 1.0, 1e-3);
@@ -256,7 +254,7 @@ TEST_P(Both, QuarterEqualsWhole) {
     return solids;
   };
   const auto whole = run(false), quarter = run(true);
-  const SolidLedger a = whole->ledger(), b = quarter->ledger();
+  const BodyLedger a = whole->ledger(), b = quarter->ledger();
   EXPECT_NEAR(b.kinetic * 4 / a.kinetic, 1.0, 1e-9);
   EXPECT_NEAR(b.plastic * 4 / a.plastic, 1.0, 1e-8);
   EXPECT_NEAR(b.momentum[2] * 4 / a.momentum[2], 1.0, 1e-9);
@@ -288,14 +286,14 @@ TEST(Solids, PointsAreExactForLinearMotionAndHandBackWhatTheyGet) {
   M << 3, 0, 0, 0, -2, 5, 0, 1, 4;  // odd across the plane x = 0, as symmetry wants
   set_motion(solids, M);
   for (const Vec3& X : {Vec3(0.03, 0.02, 0.025), Vec3(0.0, 0.0, 0.025), Vec3(0.01, -0.003, 0.0)}) {
-    const Solids::Point point = solids.locate(X);
-    const Solids::PointValues values = solids.read(point);
+    const BodyPoint point = solids.locate(X);
+    const MaterialPoint values = solids.read(point);
     EXPECT_LT((values.position - X).norm(), 1e-12);
     EXPECT_LT((values.velocity - M * X).norm(), 1e-11);
   }
   const Vec3 X(0.02, 0.02, 0.025), impulse(1, 2, 3);
   std::vector<Vec3> received(solids.particle_count(), Vec3::Zero());
-  solids.distribute(solids.locate(X), impulse, received);
+  scatter_to_carriers(solids.locate(X), impulse, received);
   Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
   for (std::size_t i = 0; i < received.size(); ++i) {
     sum += received[i];

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace undex::output {
+namespace undex::study {
 namespace {
 
 const double nan = std::nan("");
@@ -43,4 +43,4 @@ TEST(Convergence, ParetoFront) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::study

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
-namespace undex::output {
+namespace undex::study {
 namespace {
+
+using output::Series;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -152,4 +154,4 @@ TEST(RunComparison, CsvHasEmptyCellsForWhatIsUnknown) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::study

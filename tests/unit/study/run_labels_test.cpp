@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace undex::output {
+namespace undex::study {
 namespace {
 
 using Labels = std::vector<std::string>;
@@ -47,4 +47,4 @@ TEST(RunLabels, RunsOfOneSceneAreCalledByTheirFolders) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::study

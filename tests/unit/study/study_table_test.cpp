@@ -9,8 +9,10 @@
 #include "output/text_table.hpp"
 #include "tests/unit/output/temporary_folder.hpp"
 
-namespace undex::output {
+namespace undex::study {
 namespace {
+
+using namespace output;
 
 const double nan = std::nan("");
 
@@ -122,4 +124,4 @@ TEST(TextTable, AlignedCellsAndDurations) {
 }
 
 }  // namespace
-}  // namespace undex::output
+}  // namespace undex::study

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "judge/comparisons.hpp"
 #include "scene/scene.hpp"
 #include "scene/study.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace undex;
+
+const std::vector<scene::ComparisonKind>& kinds = judge::comparison_kinds();
 
 /// UNDEX_MUTATIONS sets how many damaged scenes are tried per kind of damage.
 int tries() {
@@ -39,7 +42,7 @@ class SceneMutations : public ::testing::Test {
         const std::string written = text_of(entry.path() / "case.toml");
         scenes_.push_back(written);
         try {  // also the long form
-          scenes_.push_back(scene::to_toml(scene::read(entry.path())));
+          scenes_.push_back(scene::to_toml(scene::read(entry.path(), kinds)));
         } catch (const SceneError&) {
         }
       }
@@ -58,11 +61,11 @@ class SceneMutations : public ::testing::Test {
     const fs::path file = folder_ / "case.toml";
     std::ofstream(file, std::ios::binary) << text;
     try {
-      const scene::Scene read = scene::read(file, overrides);
+      const scene::Scene read = scene::read(file, kinds, overrides);
       ++good_;
-      EXPECT_EQ(
-          scene::to_toml(scene::read((std::ofstream(folder_ / "again.toml") << scene::to_toml(read), folder_ / "again.toml"))),
-          scene::to_toml(read));
+      EXPECT_EQ(scene::to_toml(
+                    scene::read((std::ofstream(folder_ / "again.toml") << scene::to_toml(read), folder_ / "again.toml"), kinds)),
+                scene::to_toml(read));
     } catch (const SceneError& error) {
       ++refused_;
       EXPECT_FALSE(error.findings().empty());
@@ -181,7 +184,7 @@ TEST_F(SceneMutations, StudiesDamaged) {
   const auto survives_as_study = [&](const std::string& text) {
     std::ofstream(folder_ / "study.toml", std::ios::binary) << text;
     try {
-      EXPECT_FALSE(scene::read_study(folder_).runs.empty());
+      EXPECT_FALSE(scene::read_study(folder_, kinds).runs.empty());
       ++good_;
     } catch (const SceneError& error) {
       ++refused_;

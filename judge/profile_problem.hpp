@@ -2,26 +2,16 @@
 // the bodies.
 #pragma once
 
-#include <optional>
-#include <string>
+#include <cstddef>
 
 #include "core/vector.hpp"
+#include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
 
-namespace undex::scene {
-
-/// Solutions that a run can be compared with.
-enum class Solution {
-  riemann,      ///< two uniform states side by side along x
-  taylor_wave,  ///< detonation from a point (a rigid wall in one dimension)
-  sedov,        ///< energy set free at a point (axis, plane) of a cold gas
-  noh,          ///< a cold gas falls on a point (axis, plane)
-};
-
-const char* solution_name(Solution solution);
+namespace undex::judge {
 
 struct ProfileProblem {
-  Solution solution = Solution::riemann;
+  scene::Solution solution = scene::Solution::riemann;
   std::size_t first = 0;       ///< body on the left; the charge; the hot gas; the falling gas
   std::size_t second = 0;      ///< body on the right; the cold gas
   bool plane = false;          ///< taylor_wave: a charge that fills a duct along x burns as in one dimension
@@ -29,6 +19,6 @@ struct ProfileProblem {
 };
 
 /// Throws std::invalid_argument saying what the solution needs and the bodies do not have.
-ProfileProblem profile_problem(const sph::Settings& fluid, Solution solution);
+ProfileProblem profile_problem(const sph::Settings& fluid, scene::Solution solution);
 
-}  // namespace undex::scene
+}  // namespace undex::judge

@@ -1,11 +1,13 @@
-#include "scene/profile_problem.hpp"
+#include "judge/profile_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace undex::scene {
+namespace undex::judge {
 namespace {
+
+using scene::Solution;
 
 void require(bool holds, const std::string& message) {
   if (!holds) throw std::invalid_argument(message);
@@ -83,16 +85,6 @@ ProfileProblem noh(const sph::Settings& fluid) {
 
 }  // namespace
 
-const char* solution_name(Solution solution) {
-  switch (solution) {
-    case Solution::riemann: return "riemann";
-    case Solution::taylor_wave: return "taylor_wave";
-    case Solution::sedov: return "sedov";
-    case Solution::noh: break;
-  }
-  return "noh";
-}
-
 ProfileProblem profile_problem(const sph::Settings& fluid, Solution solution) {
   switch (solution) {
     case Solution::riemann: return riemann(fluid);
@@ -103,4 +95,4 @@ ProfileProblem profile_problem(const sph::Settings& fluid, Solution solution) {
   return noh(fluid);
 }
 
-}  // namespace undex::scene
+}  // namespace undex::judge

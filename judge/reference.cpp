@@ -1,0 +1,35 @@
+#include "judge/reference.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+
+namespace undex::judge {
+
+std::vector<output::HistoryColumn> read_reference_history(const std::filesystem::path& path) {
+  std::vector<output::HistoryColumn> history = output::read_history(path);
+  for (const output::HistoryColumn& column : history) try {
+      output::require_valid(column.series);
+    } catch (const std::invalid_argument& error) {
+      throw FileError(path.string() + ": column '" + column.name + "': " + error.what() + "; mend the file");
+    }
+  return history;
+}
+
+Reference read_reference(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string header;
+  while (std::getline(file, header) && (header.empty() || header[0] == '#')) {
+  }
+  if (!file)
+    throw FileError(path.string() + ": cannot be read as a reference; give a CSV file, such as those in cases/*/reference");
+  if (header.starts_with("metric,")) return {.table = read_reference_table(path), .history = {}};
+  if (header.starts_with("time")) return {.table = {}, .history = read_reference_history(path)};
+  throw FileError(path.string() +
+                  ": neither a table of metrics (header metric,label,unit,scale,<source>,...) nor a history "
+                  "(header time [s],pressure [Pa],...); its first line is '" +
+                  header + "'");
+}
+
+}  // namespace undex::judge

@@ -1,0 +1,80 @@
+#include "run/observer.hpp"
+
+#include <cmath>
+
+namespace undex::run {
+namespace {
+
+std::vector<output::Column> energy_columns(bool gravity) {
+  std::vector<output::Column> all{{"time", "s"}};
+  for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
+                           "structure_viscous", "interface_work_given", "interface_work_received", "external"})
+    all.push_back({name, "J"});
+  if (gravity) all.push_back({"gravity", "J"});
+  all.push_back({"total", "J"});
+  all.push_back({"error", ""});
+  return all;
+}
+
+/// A field of the present state; empty where the run has no such body.
+output::LastField last_field(const Simulation& simulation, const std::string& name) {
+  const std::string body = name.substr(0, name.find('.')), field = name.substr(name.find('.') + 1);
+  output::LastField last{.components = field == "position" || field == "velocity" ? 3 : 1, .values = {}};
+  if (body == "fluid" && simulation.fluid()) {
+    last.values = simulation.fluid()->field(field);
+  } else if (name == "body.position" && !simulation.bodies().empty()) {
+    for (const Vec3& x : simulation.bodies().front()->positions()) last.values.insert(last.values.end(), x.begin(), x.end());
+  }
+  return last;
+}
+
+}  // namespace
+
+EnergyHistory::EnergyHistory(const std::filesystem::path& folder, bool gravity)
+    : gravity_(gravity), samples_(energy_columns(gravity)), history_(folder / "energy.csv", samples_.columns) {}
+
+void EnergyHistory::sample(const Simulation& simulation) {
+  const EnergyBalance e = simulation.energy();
+  std::vector<double> row{simulation.time(), e.kinetic, e.internal,   e.dissipated,    e.structure_kinetic, e.elastic,
+                          e.plastic,         e.viscous, e.work_given, e.work_received, e.external};
+  if (gravity_) row.push_back(e.gravity);
+  row.insert(row.end(), {e.total(), e.error()});
+  history_.append(row);
+  samples_.append(row);
+}
+
+Observer::Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
+    : scene_(scene),
+      probes_(scene, simulation, folder),
+      energy_(folder, !scene.fluid.gravity.isZero()),
+      snapshots_(scene, simulation, folder),
+      next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
+
+void Observer::begin(const Simulation& simulation) {
+  if (simulation.time() > 0) probes_.sample_before(0.0);
+  observe(simulation);
+}
+
+void Observer::observe(const Simulation& simulation) {
+  const double now = simulation.time() * (1 + 1e-12);
+  if (now >= next_history_ || now >= scene_.end_time) {
+    probes_.sample(simulation);
+    energy_.sample(simulation);
+    const double interval = scene_.output.history_interval;
+    next_history_ = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
+  }
+  if (now >= next_snapshot_) {
+    snapshots_.write();
+    next_snapshot_ = snapshots_.next_after(simulation.time());
+  }
+}
+
+output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) {
+  probes_.flush();
+  energy_.flush();
+  output::Evidence evidence{.time = simulation.time(), .probes = probes_.samples(), .energy = energy_.samples(), .fields = {}};
+  for (const std::string& name : last_fields) evidence.fields[name] = last_field(simulation, name);
+  return evidence;
+}
+
+}  // namespace undex::run

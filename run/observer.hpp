@@ -1,0 +1,55 @@
+// What a run notes as it goes: histories of probes and energies as often as the scene wants, snapshots at their times; at the
+// end all of it in full precision, as evidence.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output/evidence.hpp"
+#include "output/history.hpp"
+#include "run/probes.hpp"
+#include "run/simulation.hpp"
+#include "run/snapshots.hpp"
+#include "scene/scene.hpp"
+
+namespace undex::run {
+
+/// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
+class EnergyHistory {
+ public:
+  EnergyHistory(const std::filesystem::path& folder, bool gravity);
+  void sample(const Simulation& simulation);
+  void flush() { history_.flush(); }
+  const output::Samples& samples() const { return samples_; }
+
+ private:
+  bool gravity_;
+  output::Samples samples_;
+  output::History history_;
+};
+
+class Observer {
+ public:
+  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
+  /// The state before the first step.
+  void begin(const Simulation& simulation);
+  /// A state after a step.
+  void observe(const Simulation& simulation);
+  /// Time [s] beyond which no step should go.
+  double next_snapshot() const { return next_snapshot_; }
+  /// See Snapshots.
+  bool write_at_stop() { return snapshots_.write_at_stop(); }
+  /// Everything observed, with those fields of the last state ("fluid.pressure"; "body.position" is that of the first deformable
+  /// body). The histories are then on disk too.
+  output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields);
+
+ private:
+  const scene::Scene& scene_;
+  Probes probes_;
+  EnergyHistory energy_;
+  Snapshots snapshots_;
+  double next_history_ = 0, next_snapshot_ = 0;
+};
+
+}  // namespace undex::run

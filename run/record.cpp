@@ -1,0 +1,51 @@
+#include "run/record.hpp"
+
+#include <omp.h>
+
+namespace undex::run {
+namespace {
+
+void add(const sph::Fluid& fluid, output::RunRecord& record) {
+  record.fluid_substeps = fluid.substeps();
+  record.particles = std::int64_t(fluid.particle_count());
+  record.wall_particles = std::int64_t(fluid.wall_particle_count());
+  record.particle_updates = record.particles * record.steps;
+  record.neighbour_interactions = fluid.neighbour_interactions();
+  record.solver_memory_bytes += std::int64_t(fluid.memory_bytes());
+  const sph::Clamps clamps = fluid.clamps();
+  record.clamps = {
+      {"density", clamps.density}, {"smoothing", clamps.smoothing}, {"filling", clamps.filling}, {"energy", clamps.energy}};
+}
+
+void add(const DeformableBody& body, output::RunRecord& record) {
+  const auto particles = std::int64_t(body.size().particles);
+  record.particles += particles;
+  record.particle_updates += particles * body.steps();
+  record.cells += std::int64_t(body.size().cells);
+  record.solver_memory_bytes += std::int64_t(body.memory_bytes());
+}
+
+}  // namespace
+
+output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulation, const Stopwatch& since) {
+  output::RunRecord record;
+  record.scene = scene.name;
+  record.time_s = simulation.time();
+  record.steps = simulation.steps();
+  record.wall_time_s = since.wall();
+  record.cpu_time_s = since.cpu();
+  record.threads = omp_get_max_threads();
+  if (const sph::Fluid* fluid = simulation.fluid()) add(*fluid, record);
+  for (const auto& body : simulation.bodies()) add(*body, record);
+  record.peak_memory_bytes = output::peak_memory_bytes();
+  record.mass_error = simulation.mass_error();
+  record.momentum_error = simulation.momentum_error();
+  record.angular_momentum_error = simulation.angular_momentum_error();
+  record.energy_error = simulation.energy().error();
+  record.interface_energy_error = simulation.interface_energy_error();
+  record.interface_impulse_error = simulation.interface_impulse_error();
+  record.passes = simulation.passes();
+  return record;
+}
+
+}  // namespace undex::run
