@@ -15,35 +15,10 @@
 #include "materials/burn.hpp"
 #include "materials/hydrostatic.hpp"
 #include "materials/library.hpp"
-#include "sph_fluid/pairs/kernels.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
+#include "sph_fluid/schemes/table.hpp"
 
 namespace undex::sph {
-
-enum class SchemeName {
-  monaghan,           ///< artificial viscosity (Chen et al. 2019, eqs 5, 6)
-  riemann,            ///< limited linear reconstruction and an acoustic Riemann flux per pair
-  paper,              ///< monaghan with walls as published (paper_scheme.hpp)
-  monaghan_switch,    ///< monaghan with a coefficient per particle that rises where it is compressed (switch_scheme.hpp)
-  riemann_corrected,  ///< riemann with corrected kernel gradients (corrected_scheme.hpp)
-};
-
-/// Their names in scenes.
-inline constexpr std::pair<const char*, SchemeName> scheme_names[] = {{"monaghan", SchemeName::monaghan},
-                                                                      {"monaghan_switch", SchemeName::monaghan_switch},
-                                                                      {"paper", SchemeName::paper},
-                                                                      {"riemann", SchemeName::riemann},
-                                                                      {"riemann_corrected", SchemeName::riemann_corrected}};
-
-/// Does the scheme's dissipation come from Monaghan's viscosity?
-constexpr bool is_viscous(SchemeName scheme) {
-  return scheme == SchemeName::monaghan || scheme == SchemeName::paper || scheme == SchemeName::monaghan_switch;
-}
-
-/// Numbers in the loop over pairs. State and its integration are in double precision always.
-enum class Precision {
-  full,   ///< double
-  mixed,  ///< pairs in single precision, on places relative to their cluster
-};
 
 /// How the fluid advances in time (docs/equations.md, section 7).
 enum class Integrator {
