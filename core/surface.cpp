@@ -3,7 +3,26 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/bilinear_patch.hpp"
+
 namespace undex {
+
+SurfaceFoot nearest_foot(const WetSurface& surface, const Vec3& x) {
+  SurfaceFoot foot;
+  double best = 1e300;
+  constexpr int fine = 8;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    for (int j = 0; j <= fine; ++j)
+      for (int i = 0; i <= fine; ++i) {
+        const std::array<double, 4> weight = bilinear_weights(double(i) / fine, double(j) / fine);
+        const double distance = (blended(weight, surface.faces[f], surface.nodes) - x).norm();
+        if (distance < best) {
+          best = distance;
+          foot = {.face = int(f), .weight = weight, .distance = distance};
+        }
+      }
+  return foot;
+}
 
 std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position) {
   std::vector<double> area(position.size(), 0.0);

@@ -16,6 +16,16 @@ struct WetSurface {
   std::vector<std::array<int, 4>> faces;  ///< indices into nodes
 };
 
+/// A point of the surface: a face, and the weights of its nodes.
+struct SurfaceFoot {
+  int face = -1;
+  std::array<double, 4> weight{};
+  double distance = 0;  ///< to the place that it was sought for [m]
+};
+
+/// The point of the reference surface nearest to x [m], among nine by nine on each face.
+SurfaceFoot nearest_foot(const WetSurface& surface, const Vec3& x);
+
 /// The image of a place or vector across symmetry planes through the origin; bit a of `axes`: across axis a.
 inline Vec3 mirrored(Vec3 x, unsigned axes) {
   for (int a = 0; a < 3; ++a)

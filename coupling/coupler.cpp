@@ -17,7 +17,7 @@ constexpr double added_mass_share = 0.3;  // of 1/omega: docs/equations.md, sect
 
 }  // namespace
 
-sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure) {
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure) {
   const WetSurface& surface = structure.wet_surface();
   const std::vector<double> area = nodal_areas(surface.faces, surface.nodes);
   const auto mass = structure.wet_masses();
@@ -49,7 +49,7 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& s
   return limit;
 }
 
-Coupler::Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings)
+Coupler::Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& settings)
     : fluid_(fluid),
       structure_(structure),
       settings_(settings),
@@ -111,10 +111,7 @@ Coupler::Window Coupler::advance(double end) {
     wall_.hand_over(wall, nodal_impulse_);
     ledger_.impulse_received = std::accumulate(nodal_impulse_.begin(), nodal_impulse_.end(), ledger_.impulse_received);
   }
-  {
-    const auto timer = timers_.measure("structure");
-    structure_.advance(fluid_.time(), nodal_impulse_);
-  }
+  structure_.advance(fluid_.time(), nodal_impulse_);
   window.structure_steps = structure_.steps() - structure_steps;
   return window;
 }
@@ -122,7 +119,7 @@ Coupler::Window Coupler::advance(double end) {
 InterfaceLedger Coupler::ledger() const {
   InterfaceLedger ledger = ledger_;
   ledger.work_given = fluid_.ledger().wall_work;
-  ledger.work_received = structure_.external_work();
+  ledger.work_received = structure_.ledger().external;
   return ledger;
 }
 

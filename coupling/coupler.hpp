@@ -8,8 +8,7 @@
 
 #include <string>
 
-#include "core/timers.hpp"
-#include "coupling/participant.hpp"
+#include "core/deformable_body.hpp"
 #include "coupling/settings.hpp"
 #include "coupling/wet_wall.hpp"
 #include "sph_fluid/water/fluid.hpp"
@@ -31,12 +30,12 @@ struct InterfaceLedger {
 /// Wall and first layer of particles oscillate against each other; where the wall is the lighter one, by its mass on the layer's
 /// stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of order one, and `share` is omega times the
 /// window. `criterion` is "added mass", `position` the node's; the step is infinite where there is no liquid.
-sph::StepLimit added_mass_limit(const sph::Settings& fluid, const Participant& structure);
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure);
 
 class Coupler {
  public:
   /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
-  Coupler(sph::Fluid& fluid, Participant& structure, const Settings& settings);
+  Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& settings);
 
   struct Window {
     double step = 0;                 ///< last fluid step [s]
@@ -49,8 +48,6 @@ class Coupler {
 
   InterfaceLedger ledger() const;
   const WetWall& wall() const { return wall_; }
-  /// Where a foot on the reference surface is now [m].
-  Vec3 position_of(const WetWall::Foot& foot) const { return wall_.position_of(foot, structure_.wet_positions()); }
   const PassTimers& timers() const { return timers_; }
 
  private:
@@ -58,7 +55,7 @@ class Coupler {
   sph::StepLimit step_limit();
 
   sph::Fluid& fluid_;
-  Participant& structure_;
+  DeformableBody& structure_;
   Settings settings_;
   WetWall wall_;
   int wall_index_;

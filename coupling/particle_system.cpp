@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace undex::sph {
+namespace undex::coupling {
 
-ParticleSystem::ParticleSystem(Fluid& fluid, Solids& solids, bool free_slip)
+ParticleSystem::ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip)
     : fluid_(fluid), solids_(solids), wall_(fluid.add_moving_wall(solids.wet_wall(free_slip))) {}
 
 ParticleSystem::Step ParticleSystem::advance(double end) {
@@ -23,10 +23,10 @@ ParticleSystem::Step ParticleSystem::advance(double end) {
   solids_.advance(fluid_.time() + step.step);
   step.solid_steps = solids_.steps() - before;
 
-  MovingWall& wall = fluid_.moving_wall(wall_);
+  sph::MovingWall& wall = fluid_.moving_wall(wall_);
   solids_.move_wall(wall, 0.0);
   // The second half of the kick, as far as it is known.
-  for (std::size_t k = 0; k < force.size(); ++k) wall.velocity[k] += impulse_[wet[k]] / solids_.particle_mass(wet[k]);
+  for (std::size_t k = 0; k < force.size(); ++k) wall.velocity[k] += impulse_[wet[k]] / solids_.masses()[wet[k]];
   fluid_.step(step.step);
   for (std::size_t k = 0; k < wet.size(); ++k) {
     impulse_[wet[k]] = wall.impulse[k] - impulse_[wet[k]];
@@ -36,4 +36,4 @@ ParticleSystem::Step ParticleSystem::advance(double end) {
   return step;
 }
 
-}  // namespace undex::sph
+}  // namespace undex::coupling

@@ -7,26 +7,26 @@
 #include "sph_fluid/water/fluid.hpp"
 #include "sph_solid/solids.hpp"
 
-namespace undex::sph {
+namespace undex::coupling {
 
 class ParticleSystem {
  public:
   /// Both must outlive it.
-  ParticleSystem(Fluid& fluid, Solids& solids, bool free_slip);
+  ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip);
 
   struct Step {
-    double step = 0;  ///< [s]
-    StepLimit limit;  ///< the fluid's
+    double step = 0;       ///< [s]
+    sph::StepLimit limit;  ///< the fluid's
     long solid_steps = 0;
   };
   /// One step of the fluid, not beyond `end` [s].
   Step advance(double end);
 
  private:
-  Fluid& fluid_;
-  Solids& solids_;
+  sph::Fluid& fluid_;
+  solid::Solids& solids_;
   int wall_;
   std::vector<Vec3> impulse_;  ///< [N s], per solid particle
 };
 
-}  // namespace undex::sph
+}  // namespace undex::coupling

@@ -80,25 +80,4 @@ void WetWall::hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse)
   }
 }
 
-WetWall::Foot WetWall::nearest(const Vec3& x) const {
-  Foot foot;
-  double best = 1e300;
-  constexpr int fine = 8;
-  for (std::size_t f = 0; f < surface_.faces.size(); ++f)
-    for (int j = 0; j <= fine; ++j)
-      for (int i = 0; i <= fine; ++i) {
-        const std::array<double, 4> weight = bilinear_weights(double(i) / fine, double(j) / fine);
-        const double distance = (blended(weight, surface_.faces[f], surface_.nodes) - x).norm();
-        if (distance < best) {
-          best = distance;
-          foot = {int(f), weight, distance};
-        }
-      }
-  return foot;
-}
-
-Vec3 WetWall::position_of(const Foot& foot, std::span<const Vec3> node_positions) const {
-  return blended(foot.weight, surface_.faces[foot.face], node_positions);
-}
-
 }  // namespace undex::coupling

@@ -36,15 +36,6 @@ class WetWall {
   /// Adds the wall's impulses [N s] to the nodes by the same weights, and sets the wall's to zero.
   void hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const;
 
-  /// Point of the reference surface nearest to x among the particles' feet: face and weights, for probes.
-  struct Foot {
-    int face = -1;
-    std::array<double, 4> weight{};
-    double distance = 0;  ///< [m]
-  };
-  Foot nearest(const Vec3& x) const;
-  Vec3 position_of(const Foot& foot, std::span<const Vec3> node_positions) const;
-
  private:
   struct Point {
     int face;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -177,6 +178,8 @@ struct Structure::Implementation {
   // What follows from the state, and scratch, per node.
   std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
   std::vector<Vec3> inverse_mass;  ///< zero where a component is held
+
+  PassTimers timers;
 
   WetSurface wet;
   std::vector<int> wet_nodes;
@@ -356,6 +359,7 @@ struct Structure::Implementation {
   double stable_step() const { return settings.courant * elements->critical_step(); }
 
   void advance(double t_end, std::span<const Vec3> impulse) {
+    const auto timer = timers.measure("structure");
     if (!impulse.empty() && impulse.size() != wet_nodes.size())
       throw std::invalid_argument("structure '" + settings.name + "': " + std::to_string(impulse.size()) + " impulses for " +
                                   std::to_string(wet_nodes.size()) + " wet nodes; give one per node of wet_surface(), or none");
@@ -396,10 +400,6 @@ std::size_t Structure::memory_bytes() const {
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
   return bytes + wet * (4 * sizeof(Vec3) + sizeof(int) + sizeof(double)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }
-double Structure::total_mass() const {
-  const auto& mass = self_->elements->nodal_mass();
-  return std::accumulate(mass.begin(), mass.end(), 0.0);
-}
 double Structure::time() const { return self_->time; }
 long Structure::steps() const { return self_->steps; }
 
@@ -413,36 +413,38 @@ double Structure::stable_step() const { return self_->stable_step(); }
 std::string Structure::stable_step_owner() const { return self_->owner(); }
 void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
 
-Energies Structure::energies() const {
-  Energies energies;
+BodyLedger Structure::ledger() const {
+  BodyLedger ledger;
   const auto& mass = self_->elements->nodal_mass();
   for (std::size_t i = 0; i < mass.size(); ++i) {
-    energies.kinetic += 0.5 * mass[i] * self_->velocity[i].squaredNorm();
-    energies.gravity += mass[i] * self_->settings.gravity.dot(self_->position[i] - self_->grid.nodes[i]);
+    const Vec3 &x = self_->position[i], &v = self_->velocity[i];
+    ledger.mass += mass[i];
+    ledger.kinetic += 0.5 * mass[i] * v.squaredNorm();
+    ledger.gravity += mass[i] * self_->settings.gravity.dot(x - self_->grid.nodes[i]);
+    ledger.momentum += mass[i] * v;
+    ledger.angular_momentum += mass[i] * x.cross(v);
   }
-  energies.integrator = self_->integrator_jumps - self_->integrator_held;
-  energies.elastic = self_->elements->elastic_energy();
-  energies.plastic = self_->elements->plastic_work();
-  energies.viscous = self_->elements->viscous_work();
-  energies.external = self_->external_work;
-  energies.impact = self_->impact_loss;
-  return energies;
-}
-
-Vec3 Structure::momentum() const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < node_count(); ++i) sum += self_->elements->nodal_mass()[i] * self_->velocity[i];
-  return sum;
-}
-
-Vec3 Structure::angular_momentum() const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < node_count(); ++i)
-    sum += self_->elements->nodal_mass()[i] * self_->position[i].cross(self_->velocity[i]);
-  return sum;
+  ledger.integrator = self_->integrator_jumps - self_->integrator_held;
+  ledger.elastic = self_->elements->elastic_energy();
+  ledger.plastic = self_->elements->plastic_work();
+  ledger.viscous = self_->elements->viscous_work();
+  ledger.external = self_->external_work;
+  ledger.impact = self_->impact_loss;
+  return ledger;
 }
 
 Vec3 Structure::plane_impulse() const { return self_->plane_impulse; }
+std::span<const Vec3> Structure::positions() const { return self_->position; }
+std::span<const double> Structure::masses() const { return self_->elements->nodal_mass(); }
+BodySize Structure::size() const { return {.cells = cell_count(), .nodes = node_count()}; }
+const PassTimers& Structure::timers() const { return self_->timers; }
+
+std::string Structure::description() const {
+  char counts[200];
+  std::snprintf(counts, sizeof counts, "  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", cell_count(), node_count(),
+                ledger().mass, stable_step() * 1e6);
+  return "structure " + self_->settings.name + " of " + self_->settings.material.name + "\n" + counts;
+}
 
 namespace {
 
@@ -451,49 +453,68 @@ double von_mises(const Mat3& stress) {
   return std::sqrt(1.5 * deviator.squaredNorm());
 }
 
+std::vector<double> as_numbers(std::span<const Vec3> vectors) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vec3& vector : vectors) numbers.insert(numbers.end(), vector.data(), vector.data() + 3);
+  return numbers;
+}
+
 }  // namespace
 
-FieldView Structure::fields() const {
+BodySnapshot Structure::snapshot(std::span<const std::string>) const {
   const ElementSet& elements = *self_->elements;
-  FieldView view;
-  view.position = self_->position;
-  view.velocity = self_->velocity;
-  view.displacement.resize(node_count());
-  for (std::size_t i = 0; i < node_count(); ++i) view.displacement[i] = self_->position[i] - self_->grid.nodes[i];
-  view.cells = self_->grid.cells;
-  for (auto* field : {&view.pressure, &view.von_mises, &view.plastic_strain, &view.temperature}) field->assign(cell_count(), 0.0);
-  for (std::size_t c = 0; c < cell_count(); ++c) {
-    view.pressure[c] = elements.pressure(c);
-    for (int q = 0; q < elements.points_per_cell(); ++q) {
-      const double share = elements.mean_share(q);
-      view.von_mises[c] += share * von_mises(elements.stress(c, q));
-      view.plastic_strain[c] += share * elements.plastic_strain(c, q);
-      view.temperature[c] += share * elements.temperature(c, q);
-    }
-  }
-  return view;
+  const auto means = [&](auto of) {
+    std::vector<double> values(cell_count(), 0.0);
+    for (std::size_t c = 0; c < cell_count(); ++c)
+      for (int q = 0; q < elements.points_per_cell(); ++q) values[c] += elements.mean_share(q) * of(c, q);
+    return values;
+  };
+  std::vector<Vec3> displacement(node_count());
+  for (std::size_t i = 0; i < node_count(); ++i) displacement[i] = self_->position[i] - self_->grid.nodes[i];
+  std::vector<double> pressure(cell_count());
+  for (std::size_t c = 0; c < cell_count(); ++c) pressure[c] = elements.pressure(c);
+  BodySnapshot snapshot;
+  snapshot.position = self_->position;
+  snapshot.cells = self_->grid.cells;
+  snapshot.of_points = {{"displacement", 3, as_numbers(displacement)}, {"velocity", 3, as_numbers(self_->velocity)}};
+  snapshot.of_cells = {{"pressure", 1, std::move(pressure)},
+                       {"von_mises", 1, means([&](std::size_t c, int q) { return von_mises(elements.stress(c, q)); })},
+                       {"plastic_strain", 1, means([&](std::size_t c, int q) { return elements.plastic_strain(c, q); })},
+                       {"temperature", 1, means([&](std::size_t c, int q) { return elements.temperature(c, q); })}};
+  return snapshot;
 }
 
-Structure::Probe Structure::locate(const Vec3& reference_position) const {
+BodyPoint Structure::locate(const Vec3& reference_position) const {
   const auto inside = self_->mesher.containing_cell(reference_position);
   const Place place = inside ? *inside : nearest_place(self_->grid, reference_position);
-  return {place.cell, place.unit, place.distance};
+  BodyPoint point;
+  point.distance = place.distance;
+  const auto shape = shape_values(place.unit);
+  for (int i = 0; i < 8; ++i)
+    point.motion.push_back({.carrier = std::uint32_t(self_->grid.cells.at(place.cell)[i]), .weight = shape[i]});
+  const std::vector<double> shares = self_->elements->shares_at(place.unit);
+  const int points = self_->elements->points_per_cell();
+  for (int q = 0; q < points; ++q)
+    point.state.push_back({.carrier = std::uint32_t(place.cell * points + q), .weight = shares[q]});
+  return point;
 }
 
-Structure::ProbeValues Structure::read(const Probe& probe) const {
-  ProbeValues values{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Zero(), 0.0, 0.0};
-  const auto& cell = self_->grid.cells.at(probe.cell);
-  const auto shape = shape_values(probe.unit);
-  for (int i = 0; i < 8; ++i) {
-    values.position += shape[i] * self_->position[cell[i]];
-    values.velocity += shape[i] * self_->velocity[cell[i]];
-    values.displacement += shape[i] * (self_->position[cell[i]] - self_->grid.nodes[cell[i]]);
+MaterialPoint Structure::read(const BodyPoint& point) const {
+  MaterialPoint values;
+  for (const auto& [node, weight, image] : point.motion) {
+    values.position += weight * self_->position[node];
+    values.velocity += weight * self_->velocity[node];
+    values.acceleration += weight * self_->acceleration[node];
+    values.displacement += weight * (self_->position[node] - self_->grid.nodes[node]);
   }
-  const auto shares = self_->elements->shares_at(probe.unit);
-  for (int q = 0; q < self_->elements->points_per_cell(); ++q) {
-    values.stress += shares[q] * self_->elements->stress(probe.cell, q);
-    values.plastic_strain += shares[q] * self_->elements->plastic_strain(probe.cell, q);
-    values.temperature += shares[q] * self_->elements->temperature(probe.cell, q);
+  const int points = self_->elements->points_per_cell();
+  for (const auto& [carrier, weight, image] : point.state) {
+    const std::size_t cell = carrier / points;
+    const int q = int(carrier % points);
+    values.stress += weight * self_->elements->stress(cell, q);
+    values.plastic_strain += weight * self_->elements->plastic_strain(cell, q);
+    values.temperature += weight * self_->elements->temperature(cell, q);
   }
   return values;
 }

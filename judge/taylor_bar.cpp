@@ -14,7 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
 
 void check(const scene::TableReader& table, const scene::Scene& scene) {
-  const auto& solids = scene.fluid.solids;
+  const auto& solids = scene.solids.bodies;
   const bool rod = scene.structure ? std::holds_alternative<fem::RodMesh>(scene.structure->mesh)
                                    : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
   if (!rod)
@@ -23,9 +23,7 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
                    "of [[solids]], a cylinder; there is none");
 }
 
-std::vector<std::string> last_fields(const scene::Scene& scene) {
-  return {scene.structure ? "structure.position" : "solids.position"};
-}
+std::vector<std::string> last_fields(const scene::Scene&) { return {"body.position"}; }
 
 Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   const std::vector<Vec3> points = evidence.field(last_fields(scene)[0]).vectors();
@@ -33,7 +31,7 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
     const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
     return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low)};
   }
-  const sph::SolidBody& body = scene.fluid.solids.front();
+  const solid::Body& body = scene.solids.bodies.front();
   const auto& rod = std::get<Cylinder>(body.shape.base);
   return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low,
                                         0.5 * body.spacing.value_or(scene.fluid.lattice.spacing))};

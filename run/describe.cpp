@@ -42,21 +42,6 @@ Bounds kept_part(const scene::Scene& scene) {
 
 const char* const unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
 
-std::string solid_bodies(const scene::Scene& scene, const sph::Solids& solids) {
-  const std::vector<std::size_t> count = solids.particles_by_body();
-  const int dimension = scene.fluid.dimension;
-  std::string text = "solids in particles\n";
-  for (std::size_t i = 0; i < count.size(); ++i) {
-    const sph::SolidBody& solid = scene.fluid.solids[i];
-    text += format("  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n", solid.name.c_str(), count[i],
-                   volume(solid.shape, kept_part(scene), dimension), unit[dimension - 1], solid.material.name.c_str(),
-                   solid.spacing.value_or(scene.fluid.lattice.spacing),
-                   solid.description == sph::Description::total_lagrangian ? "total" : "updated");
-  }
-  return text + format("  %.6g kg, stable step %.4g us (%s)\n", solids.ledger().mass, solids.stable_step() * 1e6,
-                       solids.stable_step_owner().c_str());
-}
-
 std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
   const int dimension = scene.fluid.dimension;
   const std::vector<std::size_t> count = fluid.particles_by_body();
@@ -90,15 +75,9 @@ std::string describe(const scene::Scene& given) {
     memory += double(fluid->memory_bytes());
     for (const std::string& warning : sph::lattice_warnings(scene.fluid)) text += "warning: " + warning + "\n";
   }
-  if (const fem::Structure* structure = simulation.structure()) {
-    text += format("structure %s of %s\n  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", scene.structure->name.c_str(),
-                   scene.structure->material.name.c_str(), structure->cell_count(), structure->node_count(),
-                   structure->total_mass(), structure->stable_step() * 1e6);
-    memory += double(structure->memory_bytes());
-  }
-  if (const sph::Solids* solids = simulation.solids()) {
-    text += solid_bodies(scene, *solids);
-    memory += double(solids->memory_bytes());
+  for (const auto& body : simulation.bodies()) {
+    text += body->description();
+    memory += double(body->memory_bytes());
   }
 
   // A few steps, for a second at most; the quickest counts, as other programs may be running too.

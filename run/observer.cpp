@@ -22,11 +22,8 @@ output::LastField last_field(const Simulation& simulation, const std::string& na
   output::LastField last{.components = field == "position" || field == "velocity" ? 3 : 1, .values = {}};
   if (body == "fluid" && simulation.fluid()) {
     last.values = simulation.fluid()->field(field);
-  } else if (body == "solids" && simulation.solids()) {
-    last.values = simulation.solids()->field(field);
-  } else if (name == "structure.position" && simulation.structure()) {
-    const fem::FieldView view = simulation.structure()->fields();
-    for (const Vec3& x : view.position) last.values.insert(last.values.end(), x.begin(), x.end());
+  } else if (name == "body.position" && !simulation.bodies().empty()) {
+    for (const Vec3& x : simulation.bodies().front()->positions()) last.values.insert(last.values.end(), x.begin(), x.end());
   }
   return last;
 }
@@ -50,11 +47,11 @@ Observer::Observer(const scene::Scene& scene, const Simulation& simulation, cons
     : scene_(scene),
       probes_(scene, simulation, folder),
       energy_(folder, !scene.fluid.gravity.isZero()),
-      snapshots_(scene, folder),
+      snapshots_(scene, simulation, folder),
       next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
 
 void Observer::begin(const Simulation& simulation) {
-  if (simulation.time() > 0) probes_.sample_before(simulation, 0.0);
+  if (simulation.time() > 0) probes_.sample_before(0.0);
   observe(simulation);
 }
 
@@ -67,7 +64,7 @@ void Observer::observe(const Simulation& simulation) {
     next_history_ = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
   }
   if (now >= next_snapshot_) {
-    snapshots_.write(simulation);
+    snapshots_.write();
     next_snapshot_ = snapshots_.next_after(simulation.time());
   }
 }

@@ -39,9 +39,9 @@ class Observer {
   /// Time [s] beyond which no step should go.
   double next_snapshot() const { return next_snapshot_; }
   /// See Snapshots.
-  bool write_at_stop(const Simulation& simulation) { return snapshots_.write_at_stop(simulation); }
-  /// Everything observed, with those fields of the last state ("fluid.pressure", "solids.position", "structure.position").
-  /// The histories are then on disk too.
+  bool write_at_stop() { return snapshots_.write_at_stop(); }
+  /// Everything observed, with those fields of the last state ("fluid.pressure"; "body.position" is that of the first deformable
+  /// body). The histories are then on disk too.
   output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields);
 
  private:

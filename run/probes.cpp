@@ -3,113 +3,70 @@
 namespace undex::run {
 namespace {
 
-const char* const axis_name[3] = {"_x", "_y", "_z"};
+using Read = std::function<void(std::vector<double>& row)>;
 
-/// Columns that one quantity of a probe fills, in the order of read().
-std::vector<output::Column> columns_of(const std::string& quantity, int dimension) {
-  std::vector<output::Column> columns;
-  const auto vector = [&](const std::string& name, const std::string& unit) {
-    for (int a = 0; a < dimension; ++a) columns.push_back({name + axis_name[a], unit});
+template <class Point>
+void add_columns(const std::vector<PointQuantity<Point>>& quantities, int dimension, std::vector<output::Column>& columns) {
+  for (const PointQuantity<Point>& quantity : quantities)
+    for (const std::string& name : columns_of(quantity, dimension)) columns.push_back({name, quantity.unit});
+}
+
+/// Reads `point` and gives the quantities of it.
+template <class Point>
+Read reader(std::vector<PointQuantity<Point>> quantities, int dimension, std::function<Point()> point) {
+  return [=](std::vector<double>& row) {
+    const Point now = point();
+    for (const PointQuantity<Point>& quantity : quantities) append_values(quantity, now, dimension, row);
   };
-  if (quantity == "pressure") columns.push_back({"pressure", "Pa"});
-  if (quantity == "density") columns.push_back({"density", "kg/m3"});
-  if (quantity == "void_fraction") columns.push_back({"void_fraction", ""});
-  if (quantity == "plastic_strain") columns.push_back({"plastic_strain", ""});
-  if (quantity == "temperature") columns.push_back({"temperature", "K"});
-  if (quantity == "velocity") vector("velocity", "m/s");
-  if (quantity == "displacement") vector("displacement", "m");
-  if (quantity == "stress")
-    for (const char* part : {"xx", "yy", "zz", "xy", "yz", "zx"}) columns.push_back({std::string("stress_") + part, "Pa"});
-  return columns;
 }
 
-/// The point of the solids' surfaces nearest to x, if one lies within `reach` [m].
-std::optional<Vec3> nearest_surface(const sph::Settings& settings, const Vec3& x, double reach) {
-  std::optional<Vec3> nearest;
-  double best = reach;
-  for (const sph::SolidBody& solid : settings.solids) {
-    const auto distance = [&](const Vec3& at) { return signed_distance(solid.shape, at, settings.dimension); };
-    const double away = distance(x);
-    if (std::abs(away) > best) continue;
-    best = std::abs(away);
-    Vec3 outward = Vec3::Zero();
-    for (int a = 0; a < settings.dimension; ++a) {
-      const Vec3 step = 1e-3 * reach * Vec3::Unit(a);
-      outward[a] = distance(x + step) - distance(x - step);
+/// The material point nearest to x at the start, of whichever body.
+std::function<MaterialPoint()> material_point(const Simulation& simulation, const Vec3& x) {
+  const DeformableBody* owner = nullptr;
+  BodyPoint nearest;
+  for (const auto& body : simulation.bodies())
+    if (BodyPoint point = body->locate(x); !owner || point.distance < nearest.distance) {
+      owner = body.get();
+      nearest = std::move(point);
     }
-    nearest = x - away * outward.stableNormalized();
-  }
-  return nearest;
+  return [=] { return owner->read(nearest); };
 }
 
-/// Columns of a material point, whichever solver it belongs to.
-template <class Values>
-void append_material(const Values& v, const std::vector<std::string>& quantities, int dimension, std::vector<double>& row) {
-  const auto vector = [&](const Vec3& value) { row.insert(row.end(), value.data(), value.data() + dimension); };
-  for (const std::string& quantity : quantities) {
-    if (quantity == "displacement") vector(v.displacement);
-    if (quantity == "velocity") vector(v.velocity);
-    if (quantity == "plastic_strain") row.push_back(v.plastic_strain);
-    if (quantity == "temperature") row.push_back(v.temperature);
-    if (quantity == "stress")
-      for (const auto& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}) row.push_back(v.stress(i, j));
-  }
+/// Where the fluid is read: at x, or where a body's surface near it takes it. A probe farther from bodies is one of a rigid wall.
+std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x, double reach) {
+  for (const auto& body : simulation.bodies())
+    if (auto place = body->follow_surface(x, reach)) return place;
+  return [x] { return x; };
+}
+
+std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::function<Vec3()> place) {
+  return [fluid = simulation.fluid(), place = std::move(place)] { return fluid->at(place()); };
 }
 
 }  // namespace
 
-Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
-    : dimension_(scene.structure ? 3 : scene.fluid.dimension) {
+Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder) {
+  const int dimension = scene.structure ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty()) std::filesystem::create_directories(folder / "history");
   for (const scene::Probe& probe : scene.probes) {
     std::vector<output::Column> columns{{"time", "s"}};
-    for (const std::string& quantity : probe.quantities)
-      for (const output::Column& column : columns_of(quantity, dimension_)) columns.push_back(column);
-    std::optional<coupling::WetWall::Foot> foot;
-    std::optional<fem::Structure::Probe> material;
-    if (probe.kind == scene::Probe::Kind::wall && simulation.coupler()) {
-      foot = simulation.coupler()->wall().nearest(probe.point);
-      // Nearer to the wet face than to any rigid wall: it moves with the face.
-      if (foot->distance > 2.0 * scene.fluid.lattice.spacing) foot.reset();
-    }
-    std::optional<sph::Solids::Point> solid;
-    if (const sph::Solids* solids = simulation.solids()) {
-      if (probe.kind == scene::Probe::Kind::structure) solid = solids->locate(probe.point);
+    Read read;
+    if (probe.kind == scene::Probe::Kind::structure) {
+      const auto quantities = chosen(material_quantities, probe.quantities);
+      add_columns(quantities, dimension, columns);
+      read = reader<MaterialPoint>(quantities, dimension, material_point(simulation, probe.point));
+    } else {
+      const auto quantities = chosen(fluid_quantities, probe.quantities);
+      add_columns(quantities, dimension, columns);
+      std::function<Vec3()> place = [x = probe.point] { return x; };
       if (probe.kind == scene::Probe::Kind::wall)
-        if (const auto at = nearest_surface(scene.fluid, probe.point, 2.0 * scene.fluid.lattice.spacing))
-          solid = solids->locate(*at);
-    } else if (probe.kind == scene::Probe::Kind::structure) {
-      material = simulation.structure()->locate(probe.point);
+        place = place_on_wall(simulation, probe.point, 2.0 * scene.fluid.lattice.spacing);
+      read = reader<FluidPoint>(quantities, dimension, fluid_point(simulation, std::move(place)));
     }
     output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back({.probe = probe,
-                         .foot = foot,
-                         .material = material,
-                         .solid = solid,
-                         .history = std::move(history),
-                         .samples = output::Samples(std::move(columns))});
+    channels_.push_back(
+        {.probe = probe, .read = std::move(read), .history = std::move(history), .samples = output::Samples(std::move(columns))});
   }
-}
-
-std::vector<double> Probes::read(const Channel& channel, const Simulation& simulation) const {
-  std::vector<double> row{simulation.time()};
-  const auto vector = [&](const Vec3& v) { row.insert(row.end(), v.data(), v.data() + dimension_); };
-  if (channel.probe.kind == scene::Probe::Kind::structure) {
-    if (channel.solid) append_material(simulation.solids()->read(*channel.solid), channel.probe.quantities, dimension_, row);
-    else append_material(simulation.structure()->read(*channel.material), channel.probe.quantities, dimension_, row);
-    return row;
-  }
-  const Vec3 place = channel.foot    ? simulation.coupler()->position_of(*channel.foot)
-                     : channel.solid ? simulation.solids()->read(*channel.solid).position
-                                     : channel.probe.point;
-  const sph::PointValues v = simulation.fluid()->at(place);
-  for (const std::string& quantity : channel.probe.quantities) {
-    if (quantity == "pressure") row.push_back(v.pressure);
-    if (quantity == "density") row.push_back(v.density);
-    if (quantity == "void_fraction") row.push_back(v.void_fraction);
-    if (quantity == "velocity") vector(v.velocity);
-  }
-  return row;
 }
 
 void Probes::append(Channel& channel, const std::vector<double>& row) {
@@ -117,17 +74,20 @@ void Probes::append(Channel& channel, const std::vector<double>& row) {
   channel.samples.append(row);
 }
 
-void Probes::sample(const Simulation& simulation) {
-  for (Channel& channel : channels_) append(channel, read(channel, simulation));
+std::vector<double> Probes::row_of(const Channel& channel, double time) {
+  std::vector<double> row{time};
+  channel.read(row);
+  return row;
 }
 
-void Probes::sample_before(const Simulation& simulation, double time) {
-  for (Channel& channel : channels_) {
-    if (channel.probe.kind == scene::Probe::Kind::fluid) continue;  // it may lie inside the wave
-    std::vector<double> row = read(channel, simulation);
-    row[0] = time;
-    append(channel, row);
-  }
+void Probes::sample(const Simulation& simulation) {
+  for (Channel& channel : channels_) append(channel, row_of(channel, simulation.time()));
+}
+
+void Probes::sample_before(double time) {
+  for (Channel& channel : channels_)
+    if (channel.probe.kind != scene::Probe::Kind::fluid)  // it may lie inside the wave
+      append(channel, row_of(channel, time));
 }
 
 void Probes::flush() {

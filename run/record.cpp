@@ -17,15 +17,12 @@ void add(const sph::Fluid& fluid, output::RunRecord& record) {
       {"density", clamps.density}, {"smoothing", clamps.smoothing}, {"filling", clamps.filling}, {"energy", clamps.energy}};
 }
 
-void add(const sph::Solids& solids, output::RunRecord& record) {
-  record.particles += std::int64_t(solids.particle_count());
-  record.particle_updates += std::int64_t(solids.particle_count()) * solids.steps();
-  record.solver_memory_bytes += std::int64_t(solids.memory_bytes());
-}
-
-void add(const fem::Structure& structure, output::RunRecord& record) {
-  record.cells = std::int64_t(structure.cell_count());
-  record.solver_memory_bytes += std::int64_t(structure.memory_bytes());
+void add(const DeformableBody& body, output::RunRecord& record) {
+  const auto particles = std::int64_t(body.size().particles);
+  record.particles += particles;
+  record.particle_updates += particles * body.steps();
+  record.cells += std::int64_t(body.size().cells);
+  record.solver_memory_bytes += std::int64_t(body.memory_bytes());
 }
 
 }  // namespace
@@ -39,8 +36,7 @@ output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulat
   record.cpu_time_s = since.cpu();
   record.threads = omp_get_max_threads();
   if (const sph::Fluid* fluid = simulation.fluid()) add(*fluid, record);
-  if (const sph::Solids* solids = simulation.solids()) add(*solids, record);
-  if (const fem::Structure* structure = simulation.structure()) add(*structure, record);
+  for (const auto& body : simulation.bodies()) add(*body, record);
   record.peak_memory_bytes = output::peak_memory_bytes();
   record.mass_error = simulation.mass_error();
   record.momentum_error = simulation.momentum_error();

@@ -32,22 +32,6 @@ void catch_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-/// Which particle is the fastest, and where; nothing where there are no particles.
-template <class Particles>
-std::string fastest_of(const Particles& particles) {
-  const std::vector<double> v = particles.field("velocity"), x = particles.field("position"), id = particles.field("id");
-  const auto square = [&](std::size_t i) {
-    return v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2];
-  };
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < id.size(); ++k)
-    if (square(k) > square(i)) i = k;
-  char text[200];
-  std::snprintf(text, sizeof text, "; the fastest is particle %.0f with %.3g m/s at (%.5g, %.5g, %.5g) m", id[i],
-                std::sqrt(square(i)), x[3 * i], x[3 * i + 1], x[3 * i + 2]);
-  return text;
-}
-
 /// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
 /// time: what goes off within a step is caught there, and named more closely.
 void expect_energy(const Simulation& simulation, bool& was_off) {
@@ -60,11 +44,7 @@ void expect_energy(const Simulation& simulation, bool& was_off) {
   std::snprintf(text, sizeof text,
                 "time %.6g s: the energy balance is off by %.0f %% (docs/outputs.md, energy.csv)%s; a smaller scheme.courant (or "
                 "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
-                simulation.time(), 100.0 * error,
-                (simulation.fluid()    ? fastest_of(*simulation.fluid())
-                 : simulation.solids() ? fastest_of(*simulation.solids())
-                                       : std::string())
-                    .c_str());
+                simulation.time(), 100.0 * error, simulation.fastest_particle().c_str());
   throw NumericalStop(text);
 }
 
@@ -113,7 +93,7 @@ std::string stop_message(const NumericalStop& stop, const Simulation& simulation
     char where[80];
     std::snprintf(where, sizeof where, "; fields/ ends with the %s, at %.6g s",
                   step_done ? "state at the stop" : "last sound state", simulation.time());
-    if (observer.write_at_stop(simulation)) text += where;
+    if (observer.write_at_stop()) text += where;
   } catch (const FileError& error) {
     text += std::string("; its state could not be written: ") + error.what();
   }

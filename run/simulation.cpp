@@ -6,10 +6,37 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "fem_structure/structure.hpp"
+#include "sph_solid/solids.hpp"
 
 namespace undex::run {
+namespace {
+
+/// The mass of finite elements cannot change.
+bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
+
+/// The fastest of particles with velocities v and places x, three components each.
+std::string fastest_of(const std::vector<double>& v, const std::vector<double>& x, const std::vector<double>& id) {
+  const auto square = [&](std::size_t i) {
+    return v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2];
+  };
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < id.size(); ++k)
+    if (square(k) > square(i)) i = k;
+  char text[200];
+  std::snprintf(text, sizeof text, "; the fastest is particle %.0f with %.3g m/s at (%.5g, %.5g, %.5g) m", id[i],
+                std::sqrt(square(i)), x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+  return text;
+}
+
+}  // namespace
 
 Simulation::Simulation(const scene::Scene& scene) {
+  build(scene);
+  take_start(scene);
+}
+
+void Simulation::build(const scene::Scene& scene) {
   std::vector<Finding> findings;
   const auto attempt = [&](auto build) {
     try {
@@ -19,20 +46,37 @@ Simulation::Simulation(const scene::Scene& scene) {
     }
   };
   if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
-  if (scene.structure) attempt([&] { structure_ = std::make_unique<fem::Structure>(*scene.structure); });
-  if (structure_ && scene.fluid.start_time > 0) structure_->advance(scene.fluid.start_time, {});
-  if (!scene.fluid.solids.empty()) attempt([&] { solids_ = std::make_unique<sph::Solids>(scene.fluid); });
-  const bool as_surface = scene.coupling.solids == coupling::SolidContact::surface;
-  if (fluid_ && solids_ && !as_surface)
-    attempt([&] { particle_system_ = std::make_unique<sph::ParticleSystem>(*fluid_, *solids_, scene.coupling.free_slip); });
-  attempt([&] {
-    if (fluid_ && structure_ && !structure_->wet_surface().faces.empty())
-      participant_ = std::make_unique<coupling::ElementParticipant>(*structure_);
-    else if (fluid_ && solids_ && as_surface) participant_ = std::make_unique<coupling::ParticleParticipant>(*solids_);
-    if (participant_) coupler_ = std::make_unique<coupling::Coupler>(*fluid_, *participant_, scene.coupling);
-  });
+  if (scene.structure) attempt([&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
+  solid::Solids* solids = nullptr;
+  if (!scene.solids.bodies.empty())
+    attempt([&] {
+      auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
+      if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
+      solids = built.get();
+      bodies_.push_back(std::move(built));
+    });
+  for (const auto& body : bodies_)
+    if (body->time() < scene.fluid.start_time) body->advance(scene.fluid.start_time);
+  if (findings.empty()) attempt([&] { make_driver(scene.coupling, solids); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
+}
 
+/// Water acts on the first body that it touches; others follow in time.
+void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* solids) {
+  const auto drive = [&](DeformableBody* driven, std::unique_ptr<Driver> driver) {
+    driver_ = std::move(driver);
+    for (const auto& body : bodies_)
+      if (body.get() != driven) followers_.push_back(body.get());
+  };
+  if (!fluid_) return drive(bodies_.front().get(), std::make_unique<BodyAlone>(*bodies_.front()));
+  if (solids && settings.solids == coupling::SolidContact::particles)
+    return drive(solids, std::make_unique<OneSystem>(*fluid_, *solids, settings));
+  for (const auto& body : bodies_)
+    if (!body->wet_surface().faces.empty()) return drive(body.get(), std::make_unique<Coupled>(*fluid_, *body, settings));
+  drive(nullptr, std::make_unique<WaterAlone>(*fluid_));
+}
+
+void Simulation::take_start(const scene::Scene& scene) {
   bool planes = false;
   for (int a = 0; a < 3; ++a)
     if (scene.fluid.symmetry.axis[a]) {
@@ -41,56 +85,25 @@ Simulation::Simulation(const scene::Scene& scene) {
     }
   const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty() ||
                                             !scene.structure->planes.empty());
-  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
+  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !supports;
   start_mass_ = mass();
   start_momentum_ = momentum();
-  if (solids_) start_angular_momentum_ = solids_->ledger().angular_momentum;
+  start_angular_momentum_ = angular_momentum();
   const EnergyBalance start = energy();
   start_energy_ = start.total();
   energy_scale_ = std::abs(start_energy_);
 }
 
-double Simulation::time() const { return fluid_ ? fluid_->time() : structure_ ? structure_->time() : solids_->time(); }
-long Simulation::steps() const { return fluid_ ? fluid_->steps() : structure_ ? structure_->steps() : solids_->steps(); }
+double Simulation::time() const { return fluid_ ? fluid_->time() : bodies_.front()->time(); }
+long Simulation::steps() const { return fluid_ ? fluid_->steps() : bodies_.front()->steps(); }
 
 void Simulation::advance(double end) {
-  char text[200];
-  if (coupler_) {
-    const coupling::Coupler::Window window = coupler_->advance(end);
-    last_step_ = window.step;
-    std::snprintf(text, sizeof text, "%s (%s) x%ld, structure x%ld", window.limit.criterion.c_str(), window.limit.body.c_str(),
-                  window.fluid_steps, window.structure_steps);
-  } else if (particle_system_) {
-    const sph::ParticleSystem::Step step = particle_system_->advance(end);
-    last_step_ = step.step;
-    std::snprintf(text, sizeof text, "%s (%s), solids x%ld", step.limit.criterion.c_str(), step.limit.body.c_str(),
-                  step.solid_steps);
-  } else if (fluid_) {
-    const sph::StepLimit limit = fluid_->step_limit();
-    const double left = end - fluid_->time();
-    // The last few steps before `end` share what is left, so that none is tiny.
-    last_step_ = left < 3.0 * limit.step ? left / std::ceil(left / limit.step - 1e-9) : limit.step;
-    fluid_->step(last_step_);
-    std::snprintf(text, sizeof text, "%s (%s, particle %u)", limit.criterion.c_str(), limit.body.c_str(), limit.particle);
-  } else if (solids_) {
-    last_step_ = std::min(solids_->stable_step(), end - solids_->time());
-    std::snprintf(text, sizeof text, "%s", solids_->stable_step_owner().c_str());
-    solids_->advance(solids_->time() + last_step_);
-  } else {
-    last_step_ = std::min(structure_->stable_step(), end - structure_->time());
-    const auto timer = timers_.measure("structure");
-    structure_->advance(structure_->time() + last_step_, {});
-    std::snprintf(text, sizeof text, "element");
-  }
-  if (fluid_ && structure_ && !coupler_) structure_->advance(fluid_->time(), {});
-  last_text_ = text;
+  last_ = driver_->advance(end);
+  for (DeformableBody* body : followers_) body->advance(time());
 }
-
-std::string Simulation::last_step() const { return last_text_; }
 
 EnergyBalance Simulation::energy() const {
   EnergyBalance e;
-  double external = 0;
   if (fluid_) {
     const sph::Ledger l = fluid_->ledger();
     e.kinetic = copies_ * l.kinetic;
@@ -99,39 +112,40 @@ EnergyBalance Simulation::energy() const {
     e.work_given = copies_ * l.wall_work;
     e.gravity = copies_ * l.gravity;
   }
-  if (structure_) {
-    const fem::Energies s = structure_->energies();
-    e.structure_kinetic = copies_ * s.kinetic;
-    e.elastic = copies_ * s.elastic;
-    e.plastic = copies_ * s.plastic;
-    e.viscous = copies_ * (s.viscous + s.impact);
-    external = copies_ * s.external;
-    e.gravity += copies_ * s.gravity;
+  double& external = driver_->joins_water_and_body() ? e.work_received : e.external;
+  for (const auto& body : bodies_) {
+    const BodyLedger l = body->ledger();
+    e.structure_kinetic += copies_ * l.kinetic;
+    e.elastic += copies_ * l.elastic;
+    e.plastic += copies_ * l.plastic;
+    e.viscous += copies_ * (l.viscous + l.impact);
+    e.gravity += copies_ * l.gravity;
+    external += copies_ * l.external;
   }
-  if (solids_) {
-    const sph::SolidLedger s = solids_->ledger();
-    e.structure_kinetic = copies_ * s.kinetic;
-    e.elastic = copies_ * s.elastic;
-    e.plastic = copies_ * s.plastic;
-    e.viscous = copies_ * s.viscous;
-    external = copies_ * s.external;
-    e.gravity += copies_ * s.gravity;
-  }
-  if (coupler_ || particle_system_) e.work_received = external;
-  else e.external = external;
   e.start = start_energy_;
   e.scale = std::max({energy_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
   return e;
 }
 
-/// Of what is in particles [kg]: the mass of finite elements cannot change.
-double Simulation::mass() const { return (fluid_ ? fluid_->ledger().mass : 0.0) + (solids_ ? solids_->ledger().mass : 0.0); }
+/// Of what is in particles [kg].
+double Simulation::mass() const {
+  double mass = fluid_ ? fluid_->ledger().mass : 0.0;
+  for (const auto& body : bodies_)
+    if (in_particles(body)) mass += body->ledger().mass;
+  return mass;
+}
 
 Vec3 Simulation::momentum() const {
   Vec3 momentum = Vec3::Zero();
   if (fluid_) momentum += fluid_->ledger().momentum;
-  if (structure_) momentum += structure_->momentum();
-  if (solids_) momentum += solids_->ledger().momentum;
+  for (const auto& body : bodies_) momentum += body->ledger().momentum;
+  return momentum;
+}
+
+/// Of the bodies.
+Vec3 Simulation::angular_momentum() const {
+  Vec3 momentum = Vec3::Zero();
+  for (const auto& body : bodies_) momentum += body->ledger().angular_momentum;
   return momentum;
 }
 
@@ -140,36 +154,53 @@ double Simulation::mass_error() const { return start_mass_ > 0 ? std::abs(mass()
 double Simulation::momentum_error() const {
   if (!closed_) return std::numeric_limits<double>::quiet_NaN();
   const EnergyBalance e = energy();
-  const double moving = mass() + (structure_ ? structure_->total_mass() : 0.0);
+  double moving = mass();
+  for (const auto& body : bodies_)
+    if (!in_particles(body)) moving += body->ledger().mass;
   const double scale = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic) * moving);  // momentum if all of it went one way
   return scale > 0 ? (momentum() - start_momentum_).norm() / scale : 0.0;
 }
 
 std::optional<double> Simulation::angular_momentum_error() const {
-  if (!solids_ || fluid_ || !closed_) return std::nullopt;
-  const sph::SolidLedger l = solids_->ledger();
-  const std::vector<double> mass = solids_->field("mass");
-  double inertia = 0;  // [kg m^2]
-  for (std::size_t i = 0; i < mass.size(); ++i) inertia += mass[i] * solids_->positions()[i].squaredNorm();
-  const double scale = std::sqrt(2.0 * l.kinetic * inertia);  // no motion of that energy has more
-  return scale > 0 ? (l.angular_momentum - start_angular_momentum_).norm() / scale : 0.0;
+  if (fluid_ || !closed_ || !std::all_of(bodies_.begin(), bodies_.end(), in_particles)) return std::nullopt;
+  double kinetic = 0, inertia = 0;  // [J], [kg m^2]
+  for (const auto& body : bodies_) {
+    kinetic += body->ledger().kinetic;
+    const auto mass = body->masses();
+    for (std::size_t i = 0; i < mass.size(); ++i) inertia += mass[i] * body->positions()[i].squaredNorm();
+  }
+  const double scale = std::sqrt(2.0 * kinetic * inertia);  // no motion of that energy has more
+  return scale > 0 ? (angular_momentum() - start_angular_momentum_).norm() / scale : 0.0;
 }
 
 std::optional<double> Simulation::interface_energy_error() const {
-  if (!coupler_) return std::nullopt;
-  const coupling::InterfaceLedger l = coupler_->ledger();
-  const double scale = std::max(std::abs(l.work_given), std::abs(l.work_received));
-  return scale > 0 ? (l.work_given - l.work_received) / scale : 0.0;
+  const auto l = driver_->interface();
+  if (!l) return std::nullopt;
+  const double scale = std::max(std::abs(l->work_given), std::abs(l->work_received));
+  return scale > 0 ? (l->work_given - l->work_received) / scale : 0.0;
 }
 
 std::optional<double> Simulation::interface_impulse_error() const {
-  if (!coupler_) return std::nullopt;
-  const coupling::InterfaceLedger l = coupler_->ledger();
-  return l.impulse_exchanged > 0 ? (l.impulse_given - l.impulse_received).norm() / l.impulse_exchanged : 0.0;
+  const auto l = driver_->interface();
+  if (!l) return std::nullopt;
+  return l->impulse_exchanged > 0 ? (l->impulse_given - l->impulse_received).norm() / l->impulse_exchanged : 0.0;
 }
 
 double Simulation::maximum_pressure() const {
-  return std::max(fluid_ ? fluid_->maximum_pressure() : 0.0, solids_ ? solids_->maximum_pressure() : 0.0);
+  double most = fluid_ ? fluid_->maximum_pressure() : 0.0;
+  for (const auto& body : bodies_) most = std::max(most, body->maximum_pressure());
+  return most;
+}
+
+std::string Simulation::fastest_particle() const {
+  if (fluid_) return fastest_of(fluid_->field("velocity"), fluid_->field("position"), fluid_->field("id"));
+  for (const auto& body : bodies_)
+    if (in_particles(body)) {
+      const std::string names[] = {"velocity", "position", "id"};
+      const BodySnapshot now = body->snapshot(names);
+      return fastest_of(now.of_points[0].values, now.of_points[1].values, now.of_points[2].values);
+    }
+  return {};
 }
 
 output::NamedNumbers Simulation::passes() const {
@@ -178,9 +209,8 @@ output::NamedNumbers Simulation::passes() const {
     for (const auto& pass : timers.seconds()) all.push_back(pass);
   };
   if (fluid_) add(fluid_->timers());
-  if (coupler_) add(coupler_->timers());
-  if (solids_) add(solids_->timers());
-  add(timers_);
+  add(driver_->timers());
+  for (const auto& body : bodies_) add(body->timers());
   return all;
 }
 

@@ -1,17 +1,16 @@
-// The solvers that a scene asks for, advanced together.
+// What a scene asks for: water or none, deforming bodies, and the driver that advances them together.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "coupling/coupler.hpp"
-#include "fem_structure/structure.hpp"
+#include "core/deformable_body.hpp"
 #include "output/run_record.hpp"
+#include "run/driver.hpp"
 #include "scene/scene.hpp"
 #include "sph_fluid/water/fluid.hpp"
-#include "coupling/particle_system.hpp"
-#include "sph_solid/solids.hpp"
 
 namespace undex::run {
 
@@ -40,8 +39,8 @@ class Simulation {
   /// One step (a coupling window where two solvers are coupled), not beyond `end` [s].
   void advance(double end);
   /// What the last step was and what set it, in one phrase.
-  std::string last_step() const;
-  double last_step_size() const { return last_step_; }
+  const std::string& last_step() const { return last_.words; }
+  double last_step_size() const { return last_.size; }
 
   EnergyBalance energy() const;
   double mass_error() const;
@@ -59,23 +58,24 @@ class Simulation {
   output::NamedNumbers passes() const;
 
   const sph::Fluid* fluid() const { return fluid_.get(); }
-  const fem::Structure* structure() const { return structure_.get(); }
-  const sph::Solids* solids() const { return solids_.get(); }
-  const coupling::Coupler* coupler() const { return coupler_.get(); }
+  const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
+  /// Which particle is the fastest, of the water if there is some, and where; empty where there are none.
+  std::string fastest_particle() const;
 
  private:
+  void build(const scene::Scene& scene);
+  /// `solids`: those in particles, if there are some.
+  void make_driver(const coupling::Settings& settings, solid::Solids* solids);
+  void take_start(const scene::Scene& scene);
   double mass() const;
   Vec3 momentum() const;
+  Vec3 angular_momentum() const;
 
   std::unique_ptr<sph::Fluid> fluid_;
-  std::unique_ptr<fem::Structure> structure_;
-  std::unique_ptr<sph::Solids> solids_;
-  std::unique_ptr<coupling::Participant> participant_;
-  std::unique_ptr<coupling::Coupler> coupler_;
-  std::unique_ptr<sph::ParticleSystem> particle_system_;
-  PassTimers timers_;
-  std::string last_text_ = "-";
-  double last_step_ = 0;
+  std::vector<std::unique_ptr<DeformableBody>> bodies_;
+  std::unique_ptr<Driver> driver_;
+  std::vector<DeformableBody*> followers_;  // bodies that the driver does not advance
+  Step last_;
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   double start_energy_ = 0, start_mass_ = 0;
   double energy_scale_ = 0;  // largest part of the energy met so far

@@ -2,72 +2,73 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace undex::run {
 namespace {
 
-/// Fields of one snapshot, with the memory they stand in.
-class Columns {
- public:
-  void add(const std::string& name, int components, std::vector<double> values) {
-    values_.push_back(std::move(values));
-    names_.push_back({name, components});
-  }
-  /// Puts 0 for what is not finite, and appends a field that says where.
-  void flag() {
-    std::vector<double> flags(values_.front().size() / names_.front().second, 0.0);
-    for (std::size_t f = 0; f < values_.size(); ++f)
-      for (std::size_t k = 0; k < values_[f].size(); ++k)
-        if (!std::isfinite(values_[f][k])) {
-          values_[f][k] = 0.0;
-          flags[k / names_[f].second] = 1.0;
-        }
-    add("not_finite", 1, std::move(flags));
-  }
-  std::vector<output::Field> fields() const {
-    std::vector<output::Field> fields;
-    for (std::size_t f = 0; f < values_.size(); ++f) fields.push_back({names_[f].first, names_[f].second, values_[f]});
-    return fields;
-  }
+using Fields = std::vector<BodySnapshot::Field>;
 
- private:
-  std::vector<std::vector<double>> values_;
-  std::vector<std::pair<std::string, int>> names_;
-};
-
-/// The named fields of fluid or solids as the next snapshot of a file.
-template <class Particles>
-void write_particles(const Particles& particles, const std::vector<std::string>& names, bool at_stop,
-                     output::ParticleFields& file) {
-  const std::vector<double> place = particles.field("position");
-  std::vector<Vec3> position(place.size() / 3);
-  for (std::size_t i = 0; i < position.size(); ++i) position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
-  const std::vector<double> id = particles.field("id");
-  const std::vector<std::int64_t> ids(id.begin(), id.end());
-  Columns columns;
-  for (const std::string& name : names)
-    columns.add(name, name == "velocity" || name == "displacement" ? 3 : 1, particles.field(name));
-  if (at_stop && !names.empty()) columns.flag();
-  file.write(particles.time(), position, columns.fields(), ids);
+/// Puts 0 for what is not finite, and appends a field that says where.
+void flag(Fields& fields) {
+  if (fields.empty()) return;
+  std::vector<double> flags(fields.front().values.size() / fields.front().components, 0.0);
+  for (BodySnapshot::Field& field : fields)
+    for (std::size_t k = 0; k < field.values.size(); ++k)
+      if (!std::isfinite(field.values[k])) {
+        field.values[k] = 0.0;
+        flags[k / field.components] = 1.0;
+      }
+  fields.push_back({"not_finite", 1, std::move(flags)});
 }
 
-std::vector<double> copied(std::span<const Vec3> vectors) {
-  const std::span<const double> values = output::as_components(vectors);
-  return {values.begin(), values.end()};
+std::vector<output::Field> borrowed(const Fields& fields) {
+  std::vector<output::Field> all;
+  for (const BodySnapshot::Field& field : fields) all.push_back({field.name, field.components, field.values});
+  return all;
+}
+
+/// The water's places and the named fields of it.
+BodySnapshot snapshot_of(const sph::Fluid& fluid, const std::vector<std::string>& names) {
+  const std::vector<double> place = fluid.field("position");
+  BodySnapshot snapshot;
+  snapshot.position.resize(fluid.particle_count());
+  for (std::size_t i = 0; i < snapshot.position.size(); ++i)
+    snapshot.position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
+  for (const std::string& name : names) snapshot.of_points.push_back({name, name == "velocity" ? 3 : 1, fluid.field(name)});
+  return snapshot;
+}
+
+void write_particles(double time, BodySnapshot snapshot, const std::vector<std::int64_t>& ids, bool at_stop,
+                     output::ParticleFields& file) {
+  if (at_stop) flag(snapshot.of_points);
+  file.write(time, snapshot.position, borrowed(snapshot.of_points), ids);
+}
+
+void write_cells(double time, BodySnapshot snapshot, bool at_stop, output::StructureFields& file) {
+  if (at_stop) flag(snapshot.of_cells);
+  file.write(time, {snapshot.position, snapshot.cells, borrowed(snapshot.of_points), borrowed(snapshot.of_cells)});
 }
 
 }  // namespace
 
-Snapshots::Snapshots(const scene::Scene& scene, const std::filesystem::path& folder)
-    : scene_(scene), folder_(folder / "fields"), wanted_(scene.output) {
+Snapshots::Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
+    : simulation_(simulation), folder_(folder / "fields"), wanted_(scene.output) {
   if (wanted_.field_interval > 0 || !wanted_.field_times.empty()) open();
 }
 
+/// One file a kind; a second body of a kind has a number.
 void Snapshots::open() {
   std::filesystem::create_directories(folder_);
-  if (!scene_.fluid.bodies.empty()) particles_.emplace(folder_ / "particles.h5part");
-  if (!scene_.fluid.solids.empty()) solids_.emplace(folder_ / "solids.h5part");
-  if (scene_.structure && wanted_.structure_fields) structure_.emplace(folder_);
+  if (simulation_.fluid()) water_.emplace(folder_ / "particles.h5part");
+  int of_particles = 0, of_cells = 0;
+  const auto numbered = [](const std::string& stem, int count) { return count > 1 ? stem + std::to_string(count) : stem; };
+  for (const auto& body : simulation_.bodies()) {
+    BodyFile file{.body = body.get(), .particles = {}, .cells = {}};
+    if (body->size().particles > 0) file.particles.emplace(folder_ / (numbered("solids", ++of_particles) + ".h5part"));
+    else if (wanted_.structure_fields) file.cells.emplace(folder_, numbered("structure", ++of_cells));
+    if (file.particles || file.cells) bodies_.push_back(std::move(file));
+  }
 }
 
 double Snapshots::next_after(double time) const {
@@ -79,30 +80,26 @@ double Snapshots::next_after(double time) const {
   return next;
 }
 
-void Snapshots::write(const Simulation& simulation) { write(simulation, false); }
-
-bool Snapshots::write_at_stop(const Simulation& simulation) {
-  if (!particles_ && !solids_ && !structure_) open();
-  if (simulation.time() != last_time_) write(simulation, true);
-  return particles_ || solids_ || structure_;
+bool Snapshots::write_at_stop() {
+  if (!is_open()) open();
+  if (simulation_.time() != last_time_) write(true);
+  return is_open();
 }
 
-void Snapshots::write(const Simulation& simulation, bool at_stop) {
-  last_time_ = simulation.time();
+void Snapshots::write(bool at_stop) {
+  last_time_ = simulation_.time();
   // A coupled run that is stopped has its solvers up to a step apart.
-  if (particles_) write_particles(*simulation.fluid(), wanted_.particle_fields, at_stop, *particles_);
-  if (solids_) write_particles(*simulation.solids(), wanted_.solid_fields, at_stop, *solids_);
-  if (structure_) {
-    const fem::FieldView view = simulation.structure()->fields();
-    Columns points, cells;
-    points.add("displacement", 3, copied(view.displacement));
-    points.add("velocity", 3, copied(view.velocity));
-    cells.add("pressure", 1, view.pressure);
-    cells.add("von_mises", 1, view.von_mises);
-    cells.add("plastic_strain", 1, view.plastic_strain);
-    cells.add("temperature", 1, view.temperature);
-    if (at_stop) cells.flag();
-    structure_->write(simulation.structure()->time(), {view.position, view.cells, points.fields(), cells.fields()});
+  if (const sph::Fluid* fluid = simulation_.fluid(); fluid && water_) {
+    const std::vector<double> id = fluid->field("id");
+    write_particles(fluid->time(), snapshot_of(*fluid, wanted_.particle_fields), {id.begin(), id.end()}, at_stop, *water_);
+  }
+  for (BodyFile& file : bodies_) {
+    const double time = file.body->time();
+    if (file.cells) write_cells(time, file.body->snapshot({}), at_stop, *file.cells);
+    if (!file.particles) continue;
+    std::vector<std::int64_t> ids(file.body->size().particles);
+    std::iota(ids.begin(), ids.end(), 0);
+    write_particles(time, file.body->snapshot(wanted_.solid_fields), ids, at_stop, *file.particles);
   }
 }
 

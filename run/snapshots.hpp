@@ -1,8 +1,9 @@
-// Field snapshots of a run: particles of fluid and of solids as H5Part, the structure as VTKHDF.
+// Field snapshots of a run: particles of fluid and of bodies as H5Part, bodies of finite elements as VTKHDF.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "run/simulation.hpp"
 #include "output/particle_fields.hpp"
@@ -13,25 +14,33 @@ namespace undex::run {
 
 class Snapshots {
  public:
-  Snapshots(const scene::Scene& scene, const std::filesystem::path& folder);
+  /// Of the simulation, which must outlive it, into folder/fields.
+  Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
   /// The next time at which the scene wants a snapshot after `time` [s]; infinity when there is none.
   double next_after(double time) const;
-  void write(const Simulation& simulation);
+  void write() { write(false); }
   /// The last sound state, after a NumericalStop, whether or not the scene asked for snapshots. A particle or cell of which a
   /// value is not finite all the same has `not_finite` = 1, and 0 stands for that value. False: the scene wants no fields of
   /// what it has.
-  bool write_at_stop(const Simulation& simulation);
+  bool write_at_stop();
 
  private:
+  /// A body's file, by what the body is made of; neither where the scene wants none of it.
+  struct BodyFile {
+    const DeformableBody* body;
+    std::optional<output::ParticleFields> particles;
+    std::optional<output::StructureFields> cells;
+  };
+  bool is_open() const { return water_ || !bodies_.empty(); }
   void open();
-  void write(const Simulation& simulation, bool at_stop);
+  void write(bool at_stop);
 
-  const scene::Scene& scene_;
+  const Simulation& simulation_;
   std::filesystem::path folder_;
   const scene::Output& wanted_;
   double last_time_ = -1.0;
-  std::optional<output::ParticleFields> particles_, solids_;
-  std::optional<output::StructureFields> structure_;
+  std::optional<output::ParticleFields> water_;
+  std::vector<BodyFile> bodies_;
 };
 
 }  // namespace undex::run

@@ -1,6 +1,7 @@
 // [start], [[probes]] and [output].
 #include <algorithm>
 
+#include "core/point_values.hpp"
 #include "scene/draft.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/table_reader.hpp"
@@ -8,8 +9,6 @@
 namespace undex::scene {
 namespace {
 
-const std::vector<std::string> fluid_quantities{"pressure", "velocity", "density", "void_fraction"};
-const std::vector<std::string> structure_quantities{"displacement", "velocity", "stress", "plastic_strain", "temperature"};
 const std::vector<std::string> known_particle_fields{"pressure",         "density",  "velocity",    "void_fraction", "energy",
                                                      "smoothing_length", "material", "sound_speed", "mass"};
 const std::vector<std::string> known_solid_fields{"pressure", "velocity",    "von_mises",    "plastic_strain",
@@ -41,7 +40,7 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   table.need("point", "give its position in m");
   const bool placed = table.read("point", probe.point);
   const bool in_structure = probe.kind == Probe::Kind::structure;
-  const auto& known = in_structure ? structure_quantities : fluid_quantities;
+  const std::vector<std::string> known = in_structure ? names_of(material_quantities) : names_of(fluid_quantities);
   probe.quantities = known;
   table.read("quantities", probe.quantities);
   if (probe.quantities.empty())

@@ -12,6 +12,7 @@
 #include "fem_structure/settings.hpp"
 #include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 
 namespace undex::scene {
 
@@ -45,8 +46,7 @@ struct Probe {
   std::string name;
   Kind kind = Kind::fluid;
   Vec3 point = Vec3::Zero();            ///< [m]
-  std::vector<std::string> quantities;  ///< fluid, wall: pressure, velocity, density, void_fraction;
-                                        ///< structure: displacement, velocity, stress, plastic_strain, temperature
+  std::vector<std::string> quantities;  ///< of the lists in core/point_values.hpp
 };
 
 /// What is written, and how often. Zero interval: never.
@@ -89,7 +89,8 @@ struct Scene {
   std::string name, title;
   std::filesystem::path file;  ///< where it was read from
   double end_time = 0;         ///< [s]
-  sph::Settings fluid;         ///< everything in particles; without bodies where there is no fluid
+  sph::Settings fluid;         ///< and what all particles share; without bodies where there is no fluid
+  solid::Settings solids;      ///< solids in particles; rigid planes for structures too
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;

@@ -14,28 +14,6 @@
 namespace undex::sph {
 namespace {
 
-/// A lattice ready to be walked: Cartesian cells, or rings about an axis.
-struct Grid {
-  int dimension = 3;
-  Vec3 origin = Vec3::Zero();    // a cell's corner
-  Vec3 step = Vec3::Ones();      // cell edges; along the axis only, for rings
-  Mat3 turn = Mat3::Identity();  // of Cartesian cells, about the origin
-  bool rings = false;
-  int axis = 2;
-  double ring_start = 0, ring_width = 0;
-  long around = 0;  // particles of every ring; 0: as many as its own length asks for
-};
-
-using Visit = std::function<void(const Vec3& x, double volume)>;
-
-/// A number in [-0.5, 0.5) from a seed: the same wherever and however often a run is repeated.
-double noise(std::uint64_t seed, std::uint64_t stream) {
-  std::uint64_t z = seed * 3 + stream + 0x9e3779b97f4a7c15ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return double((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
-}
-
 /// Cuts low..high into whole steps of about dx. Symmetric bounds get a cell face at zero, and so does a symmetry plane that cuts
 /// them.
 void fit_axis(double low, double high, double dx, bool mirrored, double& origin, double& step) {
@@ -48,16 +26,9 @@ void fit_axis(double low, double high, double dx, bool mirrored, double& origin,
   }
 }
 
-/// Particles on a ring, symmetric in quadrants.
-long ring_count(double radius, double width) { return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width)); }
+}  // namespace
 
-const Primitive& shape_to_fit(const Settings& settings) {
-  for (const Body& body : settings.bodies)
-    if (body.name == settings.lattice.fit) return body.shape.base;
-  for (const Wall& wall : settings.walls)
-    if (wall.name == settings.lattice.fit) return wall.container;
-  throw std::invalid_argument("resolution.fit names '" + settings.lattice.fit + "', which is neither a body nor a wall");
-}
+long ring_count(double radius, double width) { return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width)); }
 
 Grid cartesian(const Vec3& origin, double dx, int dimension) {
   Grid grid;
@@ -72,6 +43,26 @@ void fit_grid(Grid& grid, const Primitive& shape, double dx, const Symmetry& sym
   for (int a = 0; a < grid.dimension; ++a)
     if (box.low[a] > -1e299 && box.high[a] < 1e299)
       fit_axis(box.low[a], box.high[a], dx, symmetry.axis[a], grid.origin[a], grid.step[a]);
+}
+
+namespace {
+
+using Visit = std::function<void(const Vec3& x, double volume)>;
+
+/// A number in [-0.5, 0.5) from a seed: the same wherever and however often a run is repeated.
+double noise(std::uint64_t seed, std::uint64_t stream) {
+  std::uint64_t z = seed * 3 + stream + 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return double((z ^ (z >> 31)) >> 11) * 0x1.0p-53 - 0.5;
+}
+
+const Primitive& shape_to_fit(const Settings& settings) {
+  for (const Body& body : settings.bodies)
+    if (body.name == settings.lattice.fit) return body.shape.base;
+  for (const Wall& wall : settings.walls)
+    if (wall.name == settings.lattice.fit) return wall.container;
+  throw std::invalid_argument("resolution.fit names '" + settings.lattice.fit + "', which is neither a body nor a wall");
 }
 
 Grid scene_grid(const Settings& settings) {
@@ -110,31 +101,6 @@ Grid body_grid(const Settings& settings, const Body& body) {
   if (!body.spacing) return scene_grid(settings);
   Grid grid = cartesian(settings.lattice.origin, *body.spacing, settings.dimension);
   fit_grid(grid, body.shape.base, *body.spacing, settings.symmetry);
-  return grid;
-}
-
-/// A solid's own lattice. The rings of a tube all have as many particles: its wall is a grid, bent.
-Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
-  Grid grid = cartesian(settings.lattice.origin, dx, settings.dimension);
-  fit_grid(grid, body.shape.base, dx, settings.symmetry);
-  if (body.lattice != LatticeType::rings) return grid;
-  const auto about = [&](int axis, const Vec3& center, double inner, double outer) {
-    if (settings.dimension < 2 || (settings.dimension == 2 && axis != 2))
-      throw std::invalid_argument("solid '" + body.name +
-                                  "': lattice = \"rings\" needs three dimensions, or two with the axis along z");
-    grid.rings = true;
-    grid.axis = axis;
-    for (int a = 0; a < 3; ++a)
-      if (a != axis) grid.origin[a] = center[a];
-    grid.ring_start = inner;
-    grid.ring_width = (outer - inner) / std::max(1.0, std::round((outer - inner) / dx));
-    if (inner > 0) grid.around = ring_count(0.5 * (inner + outer), dx);
-  };
-  if (const auto* cylinder = std::get_if<Cylinder>(&body.shape.base))
-    about(cylinder->axis, cylinder->center, 0.0, cylinder->radius);
-  else if (const auto* tube = std::get_if<TubeShape>(&body.shape.base)) about(tube->axis, tube->center, tube->inner, tube->outer);
-  else
-    throw std::invalid_argument("solid '" + body.name + "': lattice = \"rings\" needs a cylinder or a tube; use \"cartesian\"");
   return grid;
 }
 
@@ -296,8 +262,6 @@ double kernel_support(KernelName kernel) {
 
 double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }
 
-namespace {
-
 BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
   const Bounds box = bounds(shape, settings.dimension);
   BodyParticles out;
@@ -314,8 +278,6 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
   for (double& cell_volume : out.volume) cell_volume *= scale;
   return out;
 }
-
-}  // namespace
 
 std::vector<BodyParticles> fill_bodies(const Settings& settings) {
   std::vector<BodyParticles> result;
@@ -375,14 +337,6 @@ std::vector<std::string> lattice_warnings(const Settings& settings) {
     warnings.push_back(text);
   }
   return warnings;
-}
-
-std::vector<BodyParticles> fill_solids(const Settings& settings) {
-  std::vector<BodyParticles> result;
-  for (const SolidBody& body : settings.solids)
-    result.push_back(fill(solid_grid(settings, body, body.spacing.value_or(settings.lattice.spacing)), settings, body.shape,
-                          "solid '" + body.name + "'"));
-  return result;
 }
 
 std::vector<MovingWall> line_walls(const Settings& settings) {

@@ -4,24 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/surface.hpp"
-#include "sph_fluid/pairs/kernels.hpp"
 #include "sph_solid/solids_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
-namespace undex::sph {
-namespace {
+namespace undex::solid {
 
-using undex::mirrored;  // of vectors; of symmetric tensors:
-Mat3 mirrored(Mat3 s, unsigned image) {
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      if ((image >> a & 1) != (image >> b & 1)) s(a, b) = -s(a, b);
-  return s;
-}
+using namespace sph;  // pairs, cells and kernels
+namespace {
 
 /// Sums of vectors start from zero, which Eigen's do not.
 struct Sum3 {
@@ -38,7 +32,6 @@ struct Sum3 {
 
 }  // namespace
 
-const Settings& Solids::settings() const { return self_->settings; }
 std::size_t Solids::particle_count() const { return self_->particles.size(); }
 double Solids::time() const { return self_->time; }
 long Solids::steps() const { return self_->steps; }
@@ -46,9 +39,10 @@ const PassTimers& Solids::timers() const { return self_->timers; }
 std::span<const Vec3> Solids::positions() const { return self_->particles.x; }
 std::span<const Vec3> Solids::velocities() const { return self_->particles.v; }
 std::span<const Vec3> Solids::accelerations() const { return self_->acceleration; }
-double Solids::particle_mass(std::size_t particle) const { return self_->particles.mass[particle]; }
+std::span<const double> Solids::masses() const { return self_->particles.mass; }
+BodySize Solids::size() const { return {.particles = particle_count()}; }
 Mat3 Solids::stress(std::size_t particle) const { return self_->particles.stress(particle); }
-const std::vector<std::uint32_t>& Solids::wet_particles() const { return self_->wet; }
+const std::vector<std::uint32_t>& Solids::wet_particles() const { return self_->wet_particles; }
 
 std::vector<std::size_t> Solids::particles_by_body() const {
   std::vector<std::size_t> counts;
@@ -72,10 +66,30 @@ std::string Solids::stable_step_owner() const {
   return text.str();
 }
 
-SolidLedger Solids::ledger() const {
+std::string Solids::description() const {
+  static constexpr const char* unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
+  const sph::Settings& around = self_->around;
+  Bounds kept{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+  for (int a = 0; a < 3; ++a)
+    if (around.symmetry.axis[a]) kept.low[a] = 0;
+  std::string text = "solids in particles\n";
+  char line[512];
+  for (const SolidGroup& group : self_->groups) {
+    const Body& solid = *group.body;
+    std::snprintf(line, sizeof line, "  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n",
+                  solid.name.c_str(), std::size_t(group.end - group.begin), volume(solid.shape, kept, around.dimension),
+                  unit[around.dimension - 1], solid.material.name.c_str(), group.spacing, group.lagrangian ? "total" : "updated");
+    text += line;
+  }
+  std::snprintf(line, sizeof line, "  %.6g kg, stable step %.4g us (%s)\n", ledger().mass, stable_step() * 1e6,
+                stable_step_owner().c_str());
+  return text + line;
+}
+
+BodyLedger Solids::ledger() const {
   const SolidParticles& p = self_->particles;
   const std::uint32_t n = std::uint32_t(p.size());
-  SolidLedger ledger;
+  BodyLedger ledger;
   const auto sum = [&](auto of) { return blocked_sum<double>(0, n, of); };
   ledger.mass = sum([&](std::uint32_t i) { return p.mass[i]; });
   ledger.kinetic = sum([&](std::uint32_t i) { return 0.5 * p.mass[i] * p.v[i].squaredNorm(); });
@@ -91,7 +105,7 @@ SolidLedger Solids::ledger() const {
     });
   }
   ledger.external = self_->external_work;
-  const Vec3& g = self_->settings.gravity;
+  const Vec3& g = self_->around.gravity;
   ledger.gravity = sum([&](std::uint32_t i) { return p.mass[i] * g.dot(p.x[i] - p.start[i]); });
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;
   ledger.momentum = blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.v[i]; }).value;
@@ -148,75 +162,20 @@ std::vector<double> Solids::field(std::string_view name) const {
   return out;
 }
 
-Solids::Point Solids::locate(const Vec3& place) const {
-  const SolidParticles& p = self_->particles;
-  const int dimension = self_->settings.dimension;
-  // The body of the nearest particle; then weights W V (1 + b.(X - place)) that are exact for linear fields.
-  Point point;
-  std::uint32_t nearest = 0;
-  double best = 1e300;
-  for (std::uint32_t i = 0; i < p.size(); ++i) {
-    const double d = (p.start[i] - place).squaredNorm();
-    if (d < best) best = d, nearest = i;
+BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
+  BodySnapshot snapshot;
+  snapshot.position = self_->particles.x;
+  for (const std::string& name : fields) {
+    std::vector<double> values = field(name);
+    const int components = int(values.size() / std::max<std::size_t>(particle_count(), 1));
+    snapshot.of_points.push_back({name, components, std::move(values)});
   }
-  point.distance = std::sqrt(best);
-  const SolidGroup& group = self_->group_of(nearest);
-  for (double h = group.h;; h *= 1.25) {
-    point.particles.clear(), point.weights.clear(), point.images.clear();
-    Eigen::Matrix4d moment = Eigen::Matrix4d::Zero();
-    for (int a = dimension; a < 3; ++a) moment(a + 1, a + 1) = 1.0;
-    for (unsigned image = 0; image < 8; ++image) {
-      bool wanted = true;
-      for (int a = 0; a < 3; ++a)
-        wanted = wanted && (!(image >> a & 1) || (self_->settings.symmetry.axis[a] && place[a] < WendlandC2::support * h));
-      if (!wanted) continue;
-      for (std::uint32_t i = group.begin; i < group.end; ++i) {
-        const Vec3 d = (mirrored(p.start[i], image) - place) / h;
-        const double w = WendlandC2::shape(d.norm());
-        if (w <= 0.0) continue;
-        point.particles.push_back(i);
-        point.weights.push_back(w);
-        point.images.push_back(static_cast<unsigned char>(image));
-        Eigen::Vector4d basis(1.0, d[0], d[1], d[2]);
-        moment += w * basis * basis.transpose();
-      }
-    }
-    if (!(moment.determinant() > 1e-6) && h < 20.0 * group.h) continue;
-    const Eigen::Vector4d coefficient = moment.fullPivLu().solve(Eigen::Vector4d::Unit(0));
-    for (std::size_t k = 0; k < point.weights.size(); ++k) {
-      const Vec3 d = (mirrored(p.start[point.particles[k]], point.images[k]) - place) / h;
-      point.weights[k] *= coefficient.dot(Eigen::Vector4d(1.0, d[0], d[1], d[2]));
-    }
-    return point;
-  }
-}
-
-Solids::PointValues Solids::read(const Point& point) const {
-  const SolidParticles& p = self_->particles;
-  PointValues values{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Zero(), 0.0, 0.0};
-  for (std::size_t k = 0; k < point.particles.size(); ++k) {
-    const std::uint32_t i = point.particles[k];
-    const unsigned image = point.images[k];
-    const double w = point.weights[k];
-    values.position += w * mirrored(p.x[i], image);
-    values.displacement += w * mirrored(Vec3(p.x[i] - p.start[i]), image);
-    values.velocity += w * mirrored(p.v[i], image);
-    values.acceleration += w * mirrored(self_->acceleration[i], image);
-    values.stress += w * mirrored(p.stress(i), image);
-    values.plastic_strain += w * p.plastic_strain[i];
-    values.temperature += w * p.temperature[i];
-  }
-  return values;
-}
-
-void Solids::distribute(const Point& point, const Vec3& impulse, std::vector<Vec3>& particle_impulse) const {
-  for (std::size_t k = 0; k < point.particles.size(); ++k)
-    particle_impulse[point.particles[k]] += point.weights[k] * mirrored(impulse, point.images[k]);
+  return snapshot;
 }
 
 MovingWall Solids::wet_wall(bool free_slip) const {
   const Implementation& s = *self_;
-  const std::size_t n = s.wet.size();
+  const std::size_t n = s.wet_particles.size();
   MovingWall wall;
   wall.free_slip = free_slip;
   for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(n, Vec3::Zero());
@@ -229,8 +188,8 @@ void Solids::move_wall(MovingWall& wall, double ahead) const {
   const Implementation& s = *self_;
   const SolidParticles& p = s.particles;
 #pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < s.wet.size(); ++k) {
-    const std::uint32_t i = s.wet[k];
+  for (std::size_t k = 0; k < s.wet_particles.size(); ++k) {
+    const std::uint32_t i = s.wet_particles[k];
     wall.position[k] = p.x[i] + ahead * (p.v[i] + 0.5 * ahead * s.acceleration[i]);
     wall.velocity[k] = p.v[i] + ahead * s.acceleration[i];
     wall.volume[k] = p.mass[i] / p.rho[i];
@@ -241,4 +200,4 @@ void Solids::move_wall(MovingWall& wall, double ahead) const {
   }
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -9,30 +9,37 @@
 #include "sph_solid/solids.hpp"
 #include "sph_solid/total_lagrangian.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 /// A body's particles: one range, in the order of the start.
 struct SolidGroup {
-  const SolidBody* body;
+  const Body* body;
   std::uint32_t begin, end;
   double spacing, h;                            // [m]
   std::unique_ptr<TotalLagrangian> lagrangian;  // null: updated Lagrangian
 };
 
 struct Solids::Implementation {
+  sph::Settings around;  // what all particles share, and whether there is water
   Settings settings;
   SolidParticles particles;
   std::vector<SolidGroup> groups;
   std::unique_ptr<SolidPairs> pairs;              // null where no body is updated and none can touch another
   std::vector<Vec3> acceleration, impulse_force;  // [m/s^2], [N]
-  std::vector<Vec3> wet_normal;                   // at the start, per wet particle
-  std::vector<std::uint32_t> wet;
+  std::vector<std::uint32_t> wet_particles;       // that water may meet
+  std::vector<Vec3> wet_normal;                   // at the start, of each of them
   PassTimers timers;
   double time = 0, last_step = 0;
   long steps = 0;
   double external_work = 0, integrator_jumps = 0, integrator_held = 0, first_step = 0;
 
-  explicit Implementation(const Settings& settings);
+  // The meshed wet faces, where water meets the bodies by them: nodes as material points, and their motion.
+  WetSurface surface;
+  std::vector<BodyPoint> surface_points;
+  std::vector<Vec3> surface_position, surface_velocity, surface_acceleration;
+  std::vector<double> surface_mass;
+
+  Implementation(const Settings& settings, const sph::Settings& around);
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
@@ -40,7 +47,15 @@ struct Solids::Implementation {
   void fill();
   void start_motion(const SolidGroup& group);
   void start_stress(const SolidGroup& group);
-  void find_wet();
+  void find_wet_particles();
+  void share_mass();  // of the particles, among the nodes of the surface
+
+  void advance(double t_end, std::span<const Vec3> wet_impulse);
+  void spread_impulse(std::span<const Vec3> wet_impulse, double interval);
+  void show_surface_motion();
+  BodyPoint locate(const Vec3& reference_position) const;
+  MaterialPoint read(const BodyPoint& point) const;
+  double stable_step() const;
 
   // The step: kick, drift, stresses and forces, kick (central differences, exact for a step that varies).
   void step(double dt);
@@ -57,4 +72,4 @@ struct Solids::Implementation {
   std::string description_of(std::uint32_t particle, const char* what, double dt) const;
 };
 
-}  // namespace undex::sph
+}  // namespace undex::solid

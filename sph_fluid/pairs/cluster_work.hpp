@@ -1,7 +1,7 @@
 // The loop over pairs: the particles of a cluster, one after the other, against vectors of candidates. What a pair gives is
 // computed once and added to both sides. Blocks of clusters are worked on in an order in which a block waits for those of
 // its neighbours that come before it: sums do not depend on the number of threads.
-// Included by the files that are compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+// Included by the files that are compiled once per instruction set; see schemes/loops.hpp for the choice at start-up.
 #pragma once
 
 #include <omp.h>
@@ -10,6 +10,7 @@
 #include "sph_fluid/pairs/candidates.hpp"
 #include "sph_fluid/pairs/kernels.hpp"
 #include "sph_fluid/pairs/pair_data.hpp"
+#include "sph_fluid/pairs/pair_pass.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -224,6 +225,8 @@ class ClusterWork {
     });
   }
 
+  const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
+
   /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
   void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
     const std::uint32_t real = list_.size;
@@ -232,8 +235,7 @@ class ClusterWork {
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
     if (Pass::symmetric) list_.fill_weights(begin, halves);
     list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
-    if constexpr (with_second)
-      list_.template fill_rows<List::second>(begin, second_rows(in_, images, (const Second*)nullptr), image);
+    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
   }
 
   template <class Other, class OtherSums, bool two_sided>
@@ -324,7 +326,7 @@ class ClusterWork {
   const Pass& pass_;
   const Cluster& cluster_;
   const GroupView& own_;
-  const Second* second_ = second_rows(in_, false, (const Second*)nullptr);
+  const Second* second_ = second_rows(false);
   List list_;
   const PairOutput& out_;
   Box3 box_;
@@ -349,7 +351,8 @@ void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
     }
 }
 
-template <class Kernel, template <class> class Scheme, class T>
+template <LoopKernel Kernel, template <class> class Scheme, class T>
+requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
@@ -362,6 +365,18 @@ void pass(const PairInput& in, const PairOutput& out) {
     out.interactions[b] = met;
     __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
   }
+}
+
+/// The loop of a pass: that of the kernel where it is one of `Own`, else the one that serves any.
+template <template <class> class Scheme, class... Own>
+CompiledLoop loop_of(KernelName kernel, Precision precision) {
+  const bool mixed = precision == Precision::mixed;
+  PairLoop chosen = mixed ? &pass<AnyKernel, Scheme, float> : &pass<AnyKernel, Scheme, double>;
+  [[maybe_unused]] const auto prefer = [&](KernelName name, PairLoop own) {
+    if (name == kernel) chosen = own;
+  };
+  (prefer(Own::which, mixed ? &pass<Own, Scheme, float> : &pass<Own, Scheme, double>), ...);
+  return {chosen, Scheme<double>::State::Second::which};
 }
 
 }  // namespace

@@ -395,25 +395,14 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
 double WallImages::put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving,
                             Particles& particles, std::vector<std::vector<Vec3>>& received) const {
   const auto turn = [&](std::size_t i, const Vec3& place, const Vec3& normal, const Vec3& foot, const Vec3& wall_velocity) {
-    Particles& p = particles;
-    const auto mirror_in = [&](auto& a, auto& b, auto& c, double offset) {
+    const double speed = wall_velocity.dot(normal);
+    for_each_vector(particles, i, [&](Vector kind, auto& a, auto& b, auto& c) {
+      const double offset = kind == Vector::place ? foot.dot(normal) : kind == Vector::velocity ? speed : 0.0;
       const Vec3 image = mirrored(Vec3(a, b, c), normal) + 2.0 * offset * normal;
       using Number = std::remove_reference_t<decltype(a)>;
       a = Number(image[0]), b = Number(image[1]), c = Number(image[2]);
-    };
-    p.x[i] = place[0], p.y[i] = place[1], p.z[i] = place[2];
-    const double speed = wall_velocity.dot(normal);
-    mirror_in(p.vx[i], p.vy[i], p.vz[i], speed);
-    if (!p.rate.empty()) mirror_in(p.rate[i].fx, p.rate[i].fy, p.rate[i].fz, 0.0);
-    if (!p.earlier.empty()) mirror_in(p.earlier[i].ax, p.earlier[i].ay, p.earlier[i].az, 0.0);
-    if (!p.other.empty()) {
-      mirror_in(p.other[i].rate.fx, p.other[i].rate.fy, p.other[i].rate.fz, 0.0);
-      mirror_in(p.other[i].earlier.ax, p.other[i].earlier.ay, p.other[i].earlier.az, 0.0);
-    }
-    if (!p.start.empty()) {
-      mirror_in(p.start[i].x, p.start[i].y, p.start[i].z, foot.dot(normal));
-      mirror_in(p.start[i].vx, p.start[i].vy, p.start[i].vz, speed);
-    }
+    });
+    particles.x[i] = place[0], particles.y[i] = place[1], particles.z[i] = place[2];
   };
   double work = 0;
   std::vector<std::vector<Vec3>> normals(moving.size()), velocities(moving.size()), given(moving.size());
@@ -552,7 +541,10 @@ double WallImages::hand_back(Particles& particles, const std::vector<MovingWall>
 }
 
 void WallImages::describe(PairInput& in) const {
-  in.images = {x_.data(), y_.data(), z_.data(), rows_.data(), gradients_.data(), corrected_.data(), viscosity_.data()};
+  const void* second = !gradients_.empty()   ? static_cast<const void*>(gradients_.data())
+                       : !corrected_.empty() ? static_cast<const void*>(corrected_.data())
+                                             : viscosity_.data();
+  in.images = {.x = x_.data(), .y = y_.data(), .z = z_.data(), .fluid = rows_.data(), .second = second};
 }
 
 std::size_t WallImages::memory_bytes() const {

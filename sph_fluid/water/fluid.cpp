@@ -60,7 +60,7 @@ MovingWall& Fluid::moving_wall(int index) { return self_->moving.at(index); }
 StepLimit Fluid::step_limit() { return self_->step_limit(); }
 void Fluid::step(double dt) { self_->step(dt); }
 Ledger Fluid::ledger() const { return self_->ledger(); }
-PointValues Fluid::at(const Vec3& point) const { return self_->at(point); }
+FluidPoint Fluid::at(const Vec3& point) const { return self_->at(point); }
 double Fluid::maximum_pressure() const {
   return self_->largest([&](std::size_t i) { return self_->particles.predicted[i].p; });
 }

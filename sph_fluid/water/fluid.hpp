@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/point_values.hpp"
 #include "core/timers.hpp"
 #include "core/vector.hpp"
 #include "sph_fluid/settings.hpp"
@@ -33,13 +34,6 @@ struct Ledger {
   double gravity = 0;     ///< work that gravity has done on the fluid
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
-};
-
-/// Shepard averages at a point.
-struct PointValues {
-  double pressure = 0, density = 0, void_fraction = 0;
-  Vec3 velocity = Vec3::Zero();
-  int neighbours = 0;  ///< 0: no fluid there, the values are zero
 };
 
 /// A wall that a structure moves. The owner updates position, velocity and normal before each step and collects the impulse
@@ -101,7 +95,8 @@ class Fluid {
   void step(double dt);
 
   Ledger ledger() const;
-  PointValues at(const Vec3& point) const;
+  /// Shepard averages.
+  FluidPoint at(const Vec3& point) const;
   double maximum_pressure() const;  ///< [Pa]
   double maximum_speed() const;     ///< [m/s]
   Clamps clamps() const;

@@ -211,31 +211,7 @@ void Fluid::Implementation::gather_near(double dt) {
     group.h_max = groups[g].h_max;
   }
   near.images.forget();
-  Particles& q = near.particles;
-  const std::size_t n = place.size();
-  for_each_state(q, p, [&](auto& mine, const auto& all) {
-    mine.resize(all.empty() ? 0 : n);
-    for (std::size_t k = 0; k < mine.size(); ++k) mine[k] = all[place[k]];
-  });
-  q.mass.resize(n);
-  q.id.resize(n);
-  q.rate.resize(n);
-  q.earlier.resize(n);
-  q.other.resize(n);
-  q.predicted.resize(n);
-  q.gradient.resize(p.gradient.empty() ? 0 : n);
-  q.corrected.resize(p.corrected.empty() ? 0 : n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t i = place[k];
-    q.mass[k] = p.mass[i];
-    q.id[k] = p.id[i];
-    q.rate[k] = p.other[i].rate;
-    q.earlier[k] = p.other[i].earlier;
-    q.other[k] = {p.rate[i], p.earlier[i]};
-    q.predicted[k] = p.predicted[i];
-    if (!q.gradient.empty()) q.gradient[k] = p.gradient[i];
-    if (!q.corrected.empty()) q.corrected[k] = p.corrected[i];
-  }
+  near.particles.gather(p);
 
   near_walls = std::any_of(moving.begin(), moving.end(), [](const MovingWall& wall) { return !wall.mesh.empty(); });
   for (std::size_t k = 0; k < wall_origin.size() && !near_walls; ++k)
@@ -244,16 +220,7 @@ void Fluid::Implementation::gather_near(double dt) {
 
 void Fluid::Implementation::scatter_near() {
   const auto timer = timers.measure("local steps");
-  Particles &p = particles, &q = near.particles;
-  for_each_state(q, p, [&](const auto& mine, auto& all) {
-    for (std::size_t k = 0; k < mine.size(); ++k) all[q.place[k]] = mine[k];
-  });
-  for (std::size_t k = 0; k < q.place.size(); ++k) {
-    const std::uint32_t i = q.place[k];
-    p.other[i] = {q.rate[k], q.earlier[k]};
-    p.rate[i] = q.other[k].rate;
-    p.earlier[i] = q.other[k].earlier;
-  }
+  near.particles.scatter(particles);
 }
 
 void Fluid::Implementation::join() {

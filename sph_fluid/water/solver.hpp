@@ -13,7 +13,7 @@
 #include "sph_fluid/pairs/blocks.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/water/fluid.hpp"
-#include "sph_fluid/pairs/pair_loop.hpp"
+#include "sph_fluid/schemes/loops.hpp"
 #include "sph_fluid/walls/particles.hpp"
 #include "sph_fluid/walls/wall_images.hpp"
 
@@ -177,7 +177,7 @@ struct Fluid::Implementation : ParticleSet {
   void stand_half_way(double dt);
   /// The end of a stop: pressures of the present state, and no rates.
   void stand_still();
-  /// The coefficients of viscosity of a scheme with a switch over dt, their rates held (switch_scheme.hpp).
+  /// The coefficients of viscosity of a scheme with a switch over dt, their rates held (monaghan_switch.hpp).
   void advance_viscosity(double dt);
   /// Rates at which a particle's coefficient goes to its lower and to its upper bound [1/s].
   struct SwitchRates {
@@ -243,7 +243,7 @@ struct Fluid::Implementation : ParticleSet {
   template <class Visit>
   void around(const Vec3& point, double radius_over_h, Visit visit) const;
   /// Shepard average with Wendland's kernel at h = 1.2 spacings, whatever the scheme's own.
-  PointValues at(const Vec3& point) const;
+  FluidPoint at(const Vec3& point) const;
   std::vector<double> field(std::string_view name) const;
   template <class F>
   double largest(F f) const {

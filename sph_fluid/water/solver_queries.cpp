@@ -222,9 +222,9 @@ void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visi
   }
 }
 
-PointValues Fluid::Implementation::at(const Vec3& point) const {
+FluidPoint Fluid::Implementation::at(const Vec3& point) const {
   const double shrink = 1.2 / settings.numerics.eta;
-  PointValues values;
+  FluidPoint values;
   double weight = 0;
   around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
     const FluidRow& q = particles.predicted[i];
@@ -254,26 +254,12 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n; ++i) out[i] = f(i);
   };
-  if (name == "position" || name == "velocity") {
-    const bool place = name == "position";
-    out.resize(3 * n);
-    for (std::size_t i = 0; i < n; ++i) {
-      out[3 * i] = place ? p.x[i] : p.vx[i];
-      out[3 * i + 1] = place ? p.y[i] : p.vy[i];
-      out[3 * i + 2] = place ? p.z[i] : p.vz[i];
-    }
-  } else if (name == "pressure") {
+  if (name == "pressure") {
     scalar([&](std::size_t i) { return p.predicted[i].p; });
-  } else if (name == "density") {
-    scalar([&](std::size_t i) { return p.rho[i]; });
   } else if (name == "sound_speed") {
     scalar([&](std::size_t i) { return p.predicted[i].c; });
   } else if (name == "smoothing_length") {
     scalar([&](std::size_t i) { return p.predicted[i].h; });
-  } else if (name == "mass") {
-    scalar([&](std::size_t i) { return p.mass[i]; });
-  } else if (name == "id") {
-    scalar([&](std::size_t i) { return double(p.id[i]); });
   } else if (name == "void_fraction" || name == "material" || name == "energy") {
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const Group& group = groups[g];
@@ -284,7 +270,7 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
                  : materials::uses_energy(law) ? p.energy[i]
                                                : barotropic_energy(law, p.rho[i]);
     }
-  } else {
+  } else if (!p.copy(name, out)) {
     throw std::invalid_argument("no particle field is named '" + std::string(name) + "'");
   }
   return out;

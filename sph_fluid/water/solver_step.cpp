@@ -110,33 +110,16 @@ void Fluid::Implementation::drift(double dt) {
 
 void Fluid::Implementation::cross_mirrors() {
   Particles& p = particles;
-  const struct {
-    std::vector<double>&x, &v;
-    double SumRow::*a;
-    float EarlierRates::*earlier;
-    double StepStart::*x0, StepStart::*v0;
-  } axes[3] = {{p.x, p.vx, &SumRow::fx, &EarlierRates::ax, &StepStart::x, &StepStart::vx},
-               {p.y, p.vy, &SumRow::fy, &EarlierRates::ay, &StepStart::y, &StepStart::vy},
-               {p.z, p.vz, &SumRow::fz, &EarlierRates::az, &StepStart::z, &StepStart::vz}};
   for (int axis = 0; axis < 3; ++axis) {
     if (!settings.symmetry.axis[axis]) continue;
-    const auto& [x, v, a, earlier, x0, v0] = axes[axis];
+    const std::vector<double>& x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < p.size(); ++i)
-      if (x[i] < 0.0) {
-        x[i] = -x[i];
-        v[i] = -v[i];
-        p.rate[i].*a = -(p.rate[i].*a);
-        if (!p.earlier.empty()) p.earlier[i].*earlier = -(p.earlier[i].*earlier);
-        if (!p.other.empty()) {
-          p.other[i].rate.*a = -(p.other[i].rate.*a);
-          p.other[i].earlier.*earlier = -(p.other[i].earlier.*earlier);
-        }
-        if (!p.start.empty()) {
-          p.start[i].*x0 = -(p.start[i].*x0);
-          p.start[i].*v0 = -(p.start[i].*v0);
-        }
-      }
+      if (x[i] < 0.0)
+        for_each_vector(p, i, [axis](Vector, auto& a, auto& b, auto& c) {
+          auto& across = axis == 0 ? a : axis == 1 ? b : c;
+          across = -across;
+        });
   }
   std::vector<std::vector<Vec3>> received;
   for (const MovingWall& wall : moving) received.emplace_back(wall.position.size(), Vec3::Zero());
@@ -435,9 +418,7 @@ PairInput Fluid::Implementation::pair_input() {
   in.z = particles.z.data();
   in.fluid = particles.predicted.data();
   in.kernel = kernel_choice(settings.numerics.kernel, settings.dimension);
-  in.gradient = particles.gradient.data();
-  in.corrected = particles.corrected.data();
-  in.viscosity = particles.viscosity.data();
+  in.second = particles.second_rows();
   in.groups = views.data();
   in.group_count = int(views.size());
   images.describe(in);

@@ -31,25 +31,25 @@ bool Fluid::Implementation::stage(double dt, double share, double weight) {
   const auto timer = timers.measure("integration");
   book_exchange(weight * dt);
   Particles& p = particles;
+  const ParticleState& start = p.start;
   const double kept = 1.0 - share, low = settings.numerics.alpha_min, high = settings.numerics.alpha;
   double largest_square = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest_square)
   for (std::uint32_t i = 0; i < p.size(); ++i) {
     const SumRow& rate = p.rate[i];
-    const StepStart& start = p.start[i];
-    p.x[i] = kept * start.x + share * (p.x[i] + dt * p.vx[i]);
-    p.y[i] = kept * start.y + share * (p.y[i] + dt * p.vy[i]);
-    p.z[i] = kept * start.z + share * (p.z[i] + dt * p.vz[i]);
-    p.vx[i] = kept * start.vx + share * (p.vx[i] + dt * rate.fx);
-    p.vy[i] = kept * start.vy + share * (p.vy[i] + dt * rate.fy);
-    p.vz[i] = kept * start.vz + share * (p.vz[i] + dt * rate.fz);
+    p.x[i] = kept * start.x[i] + share * (p.x[i] + dt * p.vx[i]);
+    p.y[i] = kept * start.y[i] + share * (p.y[i] + dt * p.vy[i]);
+    p.z[i] = kept * start.z[i] + share * (p.z[i] + dt * p.vz[i]);
+    p.vx[i] = kept * start.vx[i] + share * (p.vx[i] + dt * rate.fx);
+    p.vy[i] = kept * start.vy[i] + share * (p.vy[i] + dt * rate.fy);
+    p.vz[i] = kept * start.vz[i] + share * (p.vz[i] + dt * rate.fz);
     largest_square = std::max(largest_square, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-    p.rho[i] = start.rho * std::exp(share * (std::log(p.rho[i] / start.rho) + dt * rate.compression));
-    if (has_energy) p.energy[i] = kept * start.energy + share * (p.energy[i] + dt * rate.heat);
+    p.rho[i] = start.rho[i] * std::exp(share * (std::log(p.rho[i] / start.rho[i]) + dt * rate.compression));
+    if (has_energy) p.energy[i] = kept * start.energy[i] + share * (p.energy[i] + dt * rate.heat);
     if (!p.viscosity.empty()) {
       const auto [decay, source] = switch_rates(i);
       double& alpha = p.viscosity[i].alpha;
-      alpha = kept * p.start_viscosity[i].alpha + share * (alpha + dt * (decay * (low - alpha) + source * (high - alpha)));
+      alpha = kept * start.viscosity[i].alpha + share * (alpha + dt * (decay * (low - alpha) + source * (high - alpha)));
       alpha = std::clamp(alpha, low, high);  // left at steps beyond the limits only
     }
   }

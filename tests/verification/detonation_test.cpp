@@ -35,7 +35,7 @@ TEST_P(Detonation, PetnSlab) {
   run_until(fluid, 10e-6);
   const Front late = front_of(fluid);
   const double speed = (late.position - early.position) / 5e-6;
-  const PointValues wall = fluid.at(Vec3(0.02, 0, 0));
+  const FluidPoint wall = fluid.at(Vec3(0.02, 0, 0));
   report("peak_pressure", late.peak);
   report("detonation_speed", speed);
   report("pressure_behind", wall.pressure);

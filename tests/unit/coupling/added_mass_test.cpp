@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "coupling/coupler.hpp"
+#include "sph_solid/solids.hpp"
 
 namespace undex::coupling::testing {
 namespace {
@@ -18,7 +19,7 @@ const double rho = materials::density_at(water.law, rest_pressure, 0.0);
 const double sound = std::get<materials::TaitWater>(water.law).evaluate(rho, 0.0).sound_speed;
 
 /// A rigid plate of unit area at x = 0, with the water's pressure at rest behind it.
-class RigidPlate : public Participant {
+class RigidPlate : public DeformableBody {
  public:
   explicit RigidPlate(double mass) : mass_(mass), nodal_mass_(4, 0.25 * mass) {
     surface_.nodes = {{0, -0.5, -0.5}, {0, 0.5, -0.5}, {0, 0.5, 0.5}, {0, -0.5, 0.5}};
@@ -48,7 +49,22 @@ class RigidPlate : public Participant {
     }
     time_ = t_end;
   }
-  double external_work() const override { return work_; }
+  BodyLedger ledger() const override {
+    BodyLedger ledger;
+    ledger.external = work_;
+    return ledger;
+  }
+  // What the coupling does not ask for.
+  std::string stable_step_owner() const override { return {}; }
+  BodyPoint locate(const Vec3&) const override { return {}; }
+  MaterialPoint read(const BodyPoint&) const override { return {}; }
+  std::span<const Vec3> positions() const override { return position_; }
+  std::span<const double> masses() const override { return nodal_mass_; }
+  BodySnapshot snapshot(std::span<const std::string>) const override { return {}; }
+  BodySize size() const override { return {}; }
+  std::string description() const override { return {}; }
+  std::size_t memory_bytes() const override { return 0; }
+  const PassTimers& timers() const override { return timers_; }
   double velocity() const { return velocity_[0][0]; }
   /// Kinetic energy, and what the pressure behind has taken [J].
   double energy() const { return 0.5 * mass_ * velocity() * velocity() + rest_pressure * position_[0][0]; }
@@ -58,6 +74,7 @@ class RigidPlate : public Participant {
   WetSurface surface_;
   std::vector<Vec3> position_, velocity_, acceleration_;
   std::vector<double> nodal_mass_;
+  PassTimers timers_;
 };
 
 /// A column of water of one dimension and spacing 1 m that runs onto the plate, whose mass is that of `layers` layers of
@@ -145,17 +162,16 @@ TEST(AddedMass, LimitInClosedForm) {
 TEST(AddedMass, NodesOfParticlesShareTheirMass) {
   sph::Settings settings;
   settings.lattice.spacing = 0.01;
-  sph::SolidBody sheet;
+  solid::Body sheet;
   sheet.name = "sheet";
   sheet.shape.base = Box{Vec3(-0.1, -0.1, 0), Vec3(0.1, 0.1, 0.02)};
   sheet.material = materials::find_solid("al-5083-h116").value();
   sheet.wet = {"z_low"};
-  settings.solids = {sheet};
   settings.numerics.threads = 1;
-  sph::Solids solids(settings);
-  const ParticleParticipant participant(solids);
-  const auto mass = participant.wet_masses();
-  const std::vector<Vec3>& x = participant.wet_surface().nodes;
+  solid::Solids solids({.bodies = {sheet}, .numerics = {}, .planes = {}}, settings);
+  solids.mesh_wet_faces();
+  const auto mass = solids.wet_masses();
+  const std::vector<Vec3>& x = solids.wet_surface().nodes;
   ASSERT_EQ(mass.size(), x.size());
   double sum = 0.0;
   const double behind = sheet.material.rho0 * 0.02 * 0.01 * 0.01;

@@ -210,18 +210,5 @@ TEST(WetWall, UniformPressureInACylinder) {
     }
 }
 
-// ---- Probes --------------------------------------------------------------------------------------------------------
-
-TEST(WetWall, NearestFootFollowsTheSurface) {
-  const WetSurface surface = plate(1.0, 0.6, 4, 3);
-  const WetWall map(surface, 0.1, 0.3, no_planes);
-  const WetWall::Foot foot = map.nearest(Vec3(0.375, 0.3, -0.02));
-  EXPECT_NEAR(foot.distance, 0.02, 1e-12);
-  EXPECT_LT((map.position_of(foot, surface.nodes) - Vec3(0.375, 0.3, 0)).norm(), 1e-12);
-  std::vector<Vec3> moved = surface.nodes;
-  for (Vec3& x : moved) x += Vec3(0, 0, 0.5 * x[0]);
-  EXPECT_LT((map.position_of(foot, moved) - Vec3(0.375, 0.3, 0.1875)).norm(), 1e-12);
-}
-
 }  // namespace
 }  // namespace undex::coupling::testing

@@ -68,7 +68,7 @@ TEST(Dynamics, BarThatBeginsToHang) {
   EXPECT_NEAR(bar.read(end).displacement[2], -0.5 * g * bar.time() * bar.time(), 1e-4 * lowest);
   bar.advance(2.0 * length / speed, {});
   EXPECT_NEAR(bar.read(end).displacement[2], -lowest, 2e-3 * lowest);
-  const Energies energies = bar.energies();
+  const BodyLedger energies = bar.ledger();
   EXPECT_GT(energies.gravity, 0.0);
   EXPECT_LT(std::abs(energies.balance()), 2e-3 * energies.gravity);
 }
@@ -95,7 +95,7 @@ TEST(Dynamics, RingBreathes) {
   // Twice the static deflection at the turn.
   const double still = pressure * (radius - 0.5 * thickness) * radius / (71e9 * thickness);
   EXPECT_NEAR(ring.read(point).displacement[0] / (2.0 * still), 1.0, 0.01);
-  const Energies energies = ring.energies();
+  const BodyLedger energies = ring.ledger();
   EXPECT_NEAR(energies.balance(), 0.0, 1e-4 * energies.external);
 }
 
@@ -151,7 +151,7 @@ TEST(Dynamics, PlasticRingUnderAPulse) {
   EXPECT_NEAR(ring.read(point).plastic_strain / plastic, 1.0, 0.01);
   RecordProperty("error_largest", std::to_string(largest_displacement / (largest_r - radius) - 1.0));
   RecordProperty("error_plastic_strain", std::to_string(ring.read(point).plastic_strain / plastic - 1.0));
-  const Energies energies = ring.energies();
+  const BodyLedger energies = ring.ledger();
   RecordProperty("balance", std::to_string(energies.balance() / energies.external));
   EXPECT_NEAR(energies.balance(), 0.0, 1e-4 * energies.external);
 }

@@ -124,7 +124,7 @@ TEST(Meshes, WetNodesCarryWhatIsBehindThem) {
           EXPECT_NEAR(mass[n], (both ? 0.5 : 1.0) * 100 * edge(x[n][0], 2) * edge(x[n][1], 3), 1e-9);
           sum += mass[n];
         }
-        EXPECT_NEAR(sum, structure.total_mass(), 1e-9);
+        EXPECT_NEAR(sum, structure.ledger().mass, 1e-9);
       }
     }
   const Structure whole(tube(2, {}));
@@ -132,10 +132,10 @@ TEST(Meshes, WetNodesCarryWhatIsBehindThem) {
   double sum = 0.0;
   for (std::size_t n = 0; n < mass.size(); ++n) {
     const bool end = std::abs(std::abs(whole.wet_surface().nodes[n][2]) - 0.1143) < 1e-9;
-    EXPECT_NEAR(mass[n], whole.total_mass() / (32 * 8) * (end ? 0.5 : 1.0), 1e-9);
+    EXPECT_NEAR(mass[n], whole.ledger().mass / (32 * 8) * (end ? 0.5 : 1.0), 1e-9);
     sum += mass[n];
   }
-  EXPECT_NEAR(sum, whole.total_mass(), 1e-9);
+  EXPECT_NEAR(sum, whole.ledger().mass, 1e-9);
   Settings dry = tube(2, {});
   dry.wet_faces.clear();
   EXPECT_TRUE(Structure(dry).wet_masses().empty());
@@ -181,7 +181,7 @@ TEST(Meshes, OctantMovesLikeTheWholeTube) {
     const auto probe = structure.locate(Vec3(0.0508, 0, 0));
     EXPECT_LT(probe.distance, 1e-12);
     displacement[octant] = structure.read(probe).displacement[0];
-    energy[octant] = structure.energies().plastic * (octant ? 8 : 1);
+    energy[octant] = structure.ledger().plastic * (octant ? 8 : 1);
   }
   EXPECT_GT(displacement[0], 1e-4);
   EXPECT_NEAR(displacement[1], displacement[0], 1e-9 * displacement[0]);
@@ -216,7 +216,7 @@ TEST(Meshes, GmshFileIsRead) {
   const Structure structure(settings);
   EXPECT_EQ(structure.cell_count(), 2u);
   EXPECT_EQ(structure.node_count(), 12u);
-  EXPECT_NEAR(structure.total_mass(), 2000.0, 1e-9);
+  EXPECT_NEAR(structure.ledger().mass, 2000.0, 1e-9);
   ASSERT_EQ(structure.wet_surface().faces.size(), 1u);
   EXPECT_LT((area(structure.wet_surface().nodes, structure.wet_surface().faces[0]) - Vec3(1, 0, 0)).norm(), 1e-12);
 }

@@ -51,10 +51,10 @@ TEST(Plasticity, TaylorBarOfArmcoIron) {
   settings.supports = {{"low", {false, false, true}}};
   settings.initial_velocity = Vec3(0, 0, -221.0);
   Structure bar(settings);
-  const double start = bar.energies().balance();
+  const double start = bar.ledger().balance();
   const auto end = bar.locate(Vec3(0, 0, length)), foot = bar.locate(Vec3(radius, 0, 0));
   bar.advance(60e-6, {});
-  const Energies energies = bar.energies();
+  const BodyLedger energies = bar.ledger();
   const double final_length = bar.read(end).position[2], final_radius = bar.read(foot).position[0];
   RecordProperty("length_mm", std::to_string(1e3 * final_length));
   RecordProperty("foot_diameter_mm", std::to_string(2e3 * final_radius));
@@ -67,18 +67,22 @@ TEST(Plasticity, TaylorBarOfArmcoIron) {
   EXPECT_GT(energies.plastic, 0.9 * start);
 
   // The heat is the Taylor-Quinney share of the plastic work.
-  const FieldView view = bar.fields();
+  const BodySnapshot view = bar.snapshot();
+  const std::vector<double>&displacement = view.of_points[0].values, &temperature = view.of_cells[3].values;
   double heat = 0.0;
   for (std::size_t c = 0; c < view.cells.size(); ++c) {
     Vec3 x[8];
-    for (int i = 0; i < 8; ++i) x[i] = view.position[view.cells[c][i]] - view.displacement[view.cells[c][i]];
+    for (int i = 0; i < 8; ++i) {
+      const int node = view.cells[c][i];
+      x[i] = view.position[node] - Eigen::Map<const Vec3>(&displacement[3 * node]);
+    }
     double volume = 0.0;  // of the reference prism: its section times its height
     const double height = x[4][2] - x[0][2];
     for (int i = 0; i < 4; ++i) {
       const Vec3 &p = x[i], &q = x[(i + 1) % 4];
       volume += 0.5 * (p[0] * q[1] - p[1] * q[0]) * height;
     }
-    heat += iron.rho0 * std::abs(volume) * iron.heat_capacity * (view.temperature[c] - iron.T_room);
+    heat += iron.rho0 * std::abs(volume) * iron.heat_capacity * (temperature[c] - iron.T_room);
   }
   RecordProperty("heat_over_plastic", std::to_string(heat / energies.plastic));
   EXPECT_NEAR(heat, iron.taylor_quinney * energies.plastic, 0.01 * energies.plastic);

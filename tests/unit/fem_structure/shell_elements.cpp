@@ -279,17 +279,17 @@ TEST(ShellElements, FreeSheetKeepsBothMomentaAndEnergy) {
     Settings settings = free_sheet();
     if (!viscous) settings.linear_viscosity = settings.quadratic_viscosity = 0.0;
     Structure body(settings);
-    const double start = body.energies().balance();
+    const double start = body.ledger().balance();
     double time = 0.0;
     for (int window = 1; window <= 20; ++window) body.advance(time += 0.4e-6, kicks(body.wet_surface().nodes.size(), 3e-4));
-    const Vec3 linear = body.momentum(), angular = body.angular_momentum();
+    const Vec3 linear = body.ledger().momentum, angular = body.ledger().angular_momentum;
     while (body.steps() < 600) body.advance(body.time() + body.stable_step(), {});
-    const Energies energies = body.energies();
+    const BodyLedger energies = body.ledger();
     RecordProperty(viscous ? "balance_viscous" : "balance", std::to_string((energies.balance() - start) / energies.external));
     EXPECT_GT(energies.plastic, 0.05 * energies.external);
     EXPECT_EQ(energies.viscous > 0.0, viscous);
-    EXPECT_LT((body.momentum() - linear).norm(), 1e-12 * linear.norm());
-    EXPECT_LT((body.angular_momentum() - angular).norm(), 1e-12 * angular.norm());
+    EXPECT_LT((body.ledger().momentum - linear).norm(), 1e-12 * linear.norm());
+    EXPECT_LT((body.ledger().angular_momentum - angular).norm(), 1e-12 * angular.norm());
     EXPECT_NEAR(energies.balance(), start, 2e-4 * energies.external);
   }
 }

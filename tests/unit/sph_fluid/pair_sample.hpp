@@ -15,7 +15,7 @@
 #include "core/vector.hpp"
 #include "sph_fluid/pairs/blocks.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
-#include "sph_fluid/pairs/pair_loop.hpp"
+#include "sph_fluid/schemes/loops.hpp"
 
 namespace undex::sph::testing {
 
@@ -148,12 +148,12 @@ inline Result run(const Sample& sample) {
   in.fluid = rows.data();
   in.kernel = kernel_choice(sample.kernel, sample.dimension);
   result.gradients.resize(loops.second == SecondRow::gradient ? n : 0);
-  in.gradient = result.gradients.data();
   std::vector<CorrectedRow> corrected(loops.second == SecondRow::corrected ? n : 0);
-  in.corrected = corrected.data();
   std::vector<ViscosityRow> viscosity(loops.second == SecondRow::viscosity ? n : 0);
   for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i].alpha = alpha_of(sample, result.particles[i]);
-  in.viscosity = viscosity.data();
+  in.second = loops.second == SecondRow::gradient    ? static_cast<void*>(result.gradients.data())
+              : loops.second == SecondRow::corrected ? static_cast<void*>(corrected.data())
+                                                     : viscosity.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
   in.wall_x = wx.data();

@@ -371,7 +371,7 @@ TEST(Probe, UniformFlow) {
   fluid.step_limit();
   const double rho = materials::density_at(uniform().bodies[0].material.law, 3e7, 0);
   for (const Vec3& x : {Vec3(0.5, 0.5, 0), Vec3(0.513, 0.777, 0), Vec3(0.98, 0.97, 0)}) {
-    const PointValues values = fluid.at(x);
+    const FluidPoint values = fluid.at(x);
     EXPECT_GT(values.neighbours, 3);
     EXPECT_NEAR(values.pressure, 3e7, 1e-6 * 3e7);
     EXPECT_NEAR(values.density, rho, 1e-9 * rho);
@@ -383,7 +383,7 @@ TEST(Probe, UniformFlow) {
   EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).velocity[0], 0.0, 1e-9);
   EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).velocity[1], -2.0, 1e-9);
   EXPECT_NEAR(fluid.at(Vec3(0, 0.5, 0)).pressure, 3e7, 30);
-  const PointValues outside = fluid.at(Vec3(5, 5, 0));
+  const FluidPoint outside = fluid.at(Vec3(5, 5, 0));
   EXPECT_EQ(outside.neighbours, 0);
   EXPECT_EQ(outside.pressure, 0.0);
 }

@@ -12,7 +12,7 @@
 #include "materials/library.hpp"
 #include "materials/stress_update.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 namespace {
 
 constexpr double young = 70e9, poisson = 0.3, density = 2700;
@@ -27,8 +27,8 @@ materials::Solid elastic(double E = young, double nu = poisson) {
   return solid;
 }
 
-SolidBody body(const Primitive& shape, Description description, materials::Solid material = elastic()) {
-  SolidBody b;
+Body body(const Primitive& shape, Description description, materials::Solid material = elastic()) {
+  Body b;
   b.name = "body";
   b.shape = {shape, {}};
   b.material = std::move(material);
@@ -36,12 +36,18 @@ SolidBody body(const Primitive& shape, Description description, materials::Solid
   return b;
 }
 
-Settings scene(std::vector<SolidBody> solids, double spacing, int dimension = 3) {
-  Settings s;
-  s.dimension = dimension;
-  s.lattice.spacing = spacing;
-  s.solids = std::move(solids);
-  s.numerics.threads = 1;
+/// Solids, and what they share with water where there is some.
+struct Scene {
+  Settings solids;
+  sph::Settings around;
+};
+
+Scene scene(std::vector<Body> solids, double spacing, int dimension = 3) {
+  Scene s;
+  s.around.dimension = dimension;
+  s.around.lattice.spacing = spacing;
+  s.solids.bodies = std::move(solids);
+  s.around.numerics.threads = 1;
   return s;
 }
 
@@ -55,15 +61,15 @@ INSTANTIATE_TEST_SUITE_P(Descriptions, Both, ::testing::Values(Description::tota
 void set_motion(Solids& solids, const Mat3& M) {
   std::vector<Vec3> impulse(solids.particle_count());
   for (std::size_t i = 0; i < impulse.size(); ++i)
-    impulse[i] = solids.particle_mass(i) * (M * solids.positions()[i] - solids.velocities()[i]);
+    impulse[i] = solids.masses()[i] * (M * solids.positions()[i] - solids.velocities()[i]);
   solids.kick(impulse);
 }
 
 TEST_P(Both, FallsFreely) {
   const Vec3 g(2e5, 0, -1e6);
-  Settings falling = scene({body(block, GetParam())}, 0.005), resting = falling;
-  falling.gravity = g;
-  Solids falls(falling), rests(resting);
+  Scene falling = scene({body(block, GetParam())}, 0.005), resting = falling;
+  falling.around.gravity = g;
+  Solids falls(falling.solids, falling.around), rests(resting.solids, resting.around);
   Mat3 squeeze = Mat3::Zero();
   squeeze.diagonal() << -200, 100, 150;  // it rings as it falls
   set_motion(falls, squeeze);
@@ -78,7 +84,7 @@ TEST_P(Both, FallsFreely) {
     EXPECT_LT((falls.positions()[i] - rests.positions()[i] - 0.5 * t * t * g).norm(), 1e-10 * 0.05) << i;
     EXPECT_LT((falls.velocities()[i] - rests.velocities()[i] - t * g).norm(), 1e-9 * t * g.norm()) << i;
   }
-  const SolidLedger end = falls.ledger();
+  const BodyLedger end = falls.ledger();
   EXPECT_GT(end.gravity, 0.1 * end.kinetic);
   EXPECT_NEAR(end.balance(), rests.ledger().balance(), 1e-9 * end.kinetic);
 }
@@ -86,10 +92,10 @@ TEST_P(Both, FallsFreely) {
 TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
   // Corrected gradients are exact for any arrangement, at borders too; updated ones as long as a corner has neighbours
   // enough.
-  Settings s = scene({body(block, GetParam())}, 0.005);
-  s.lattice.jitter = GetParam() == Description::total_lagrangian ? 0.3 : 0.0;
-  s.solid_numerics.linear_viscosity = s.solid_numerics.quadratic_viscosity = 0;
-  Solids solids(s);
+  Scene s = scene({body(block, GetParam())}, 0.005);
+  s.around.lattice.jitter = GetParam() == Description::total_lagrangian ? 0.3 : 0.0;
+  s.solids.numerics.linear_viscosity = s.solids.numerics.quadratic_viscosity = 0;
+  Solids solids(s.solids, s.around);
   Mat3 L;
   L << 30, -200, 50, 100, -20, 70, 10, 40, 60;
   set_motion(solids, L);
@@ -106,28 +112,28 @@ TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) gradient[a][b][q] = G(a, b);
   }
-  materials::advance_deviator(s.solids[0].material, gradient, volume, {}, dt, points, done);
+  materials::advance_deviator(s.solids.bodies[0].material, gradient, volume, {}, dt, points, done);
   Mat3 expected;
   const auto& d = points.deviator;
   expected << d[0][0], d[5][0], d[4][0], d[5][0], d[1][0], d[3][0], d[4][0], d[3][0], d[2][0];
-  expected -=
-      materials::evaluate(s.solids[0].material.pressure, density, density / F.determinant(), 0).pressure * Mat3::Identity();
+  expected -= materials::evaluate(s.solids.bodies[0].material.pressure, density, density / F.determinant(), 0).pressure *
+              Mat3::Identity();
   for (std::size_t i = 0; i < solids.particle_count(); ++i)
     ASSERT_LT((solids.stress(i) - expected).norm(), 1e-9 * expected.norm()) << i;
 }
 
 TEST_P(Both, TurningAStressedDiscMakesNoStress) {
-  SolidBody disc = body(Cylinder{2, Vec3::Zero(), 0.01, -1, 1}, GetParam());
+  Body disc = body(Cylinder{2, Vec3::Zero(), 0.01, -1, 1}, GetParam());
   disc.residual_stress = 1e8;
   disc.spin = Vec3(0, 0, 2000);  // the rim at 20 m/s: centrifugal stress is a thousandth of the residual one
-  Settings s = scene({disc}, 0.001, 2);
-  Solids solids(s);
+  Scene s = scene({disc}, 0.001, 2);
+  Solids solids(s.solids, s.around);
   const auto mean_radial = [&] {
     double sum = 0, mass = 0;
     for (std::size_t i = 0; i < solids.particle_count(); ++i) {
       const Vec3 e = solids.positions()[i].normalized();
-      sum += solids.particle_mass(i) * e.dot(solids.stress(i) * e);
-      mass += solids.particle_mass(i);
+      sum += solids.masses()[i] * e.dot(solids.stress(i) * e);
+      mass += solids.masses()[i];
     }
     return sum / mass;
   };
@@ -148,15 +154,15 @@ TEST_P(Both, TurningAStressedDiscMakesNoStress) {
 }
 
 TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
-  SolidBody rod = body(Cylinder{2, Vec3::Zero(), 3.8e-3, 0, 12e-3}, GetParam(), *materials::find_solid("armco-iron"));
+  Body rod = body(Cylinder{2, Vec3::Zero(), 3.8e-3, 0, 12e-3}, GetParam(), *materials::find_solid("armco-iron"));
   rod.velocity = Vec3(0, 0, -221);
-  Settings s = scene({rod}, 0.8e-3);
-  s.symmetry.axis = {true, true, false};
-  s.planes = {{2, 0.0, true}};
-  Solids solids(s);
+  Scene s = scene({rod}, 0.8e-3);
+  s.around.symmetry.axis = {true, true, false};
+  s.solids.planes = {{2, 0.0, true}};
+  Solids solids(s.solids, s.around);
   const double start = solids.ledger().kinetic;
   solids.advance(20e-6);
-  const SolidLedger end = solids.ledger();
+  const BodyLedger end = solids.ledger();
   EXPECT_NEAR(end.balance() / start, 1.0, 5e-3);
   EXPECT_GT(end.plastic, 0.6 * start);
   EXPECT_LE(end.external, 0.0);  // the plane takes, and gives nothing
@@ -165,16 +171,16 @@ TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
 
 TEST_P(Both, BarRingsAtLovesFrequency) {
   const double length = 0.5, half = 0.025;
-  SolidBody bar = body(Box{Vec3(-half, -half, 0), Vec3(half, half, length)}, GetParam());
+  Body bar = body(Box{Vec3(-half, -half, 0), Vec3(half, half, length)}, GetParam());
   double error[2];
   for (int level = 0; level < 2; ++level) {
-    Settings s = scene({bar}, 2 * half / (3 << level));
-    s.symmetry.axis = {true, true, false};
-    Solids solids(s);
+    Scene s = scene({bar}, 2 * half / (3 << level));
+    s.around.symmetry.axis = {true, true, false};
+    Solids solids(s.solids, s.around);
     const std::vector<Vec3> X(solids.positions().begin(), solids.positions().end());
     std::vector<Vec3> impulse(X.size());
     const double k = std::numbers::pi / length;
-    for (std::size_t i = 0; i < X.size(); ++i) impulse[i] = solids.particle_mass(i) * Vec3(0, 0, std::cos(k * X[i][2]));
+    for (std::size_t i = 0; i < X.size(); ++i) impulse[i] = solids.masses()[i] * Vec3(0, 0, std::cos(k * X[i][2]));
     solids.kick(impulse);
     // Love 1888: inertia of the section's own motion slows a bar of side a by (k nu)^2 (a^2 + a^2)/12.
     const double slower = std::sqrt(1 + poisson * poisson * k * k * 2 * (4 * half * half) / 12);
@@ -184,8 +190,7 @@ TEST_P(Both, BarRingsAtLovesFrequency) {
     while (zeros < 3) {
       solids.advance(solids.time() + solids.stable_step());
       double mode = 0;
-      for (std::size_t i = 0; i < X.size(); ++i)
-        mode += solids.particle_mass(i) * solids.velocities()[i][2] * std::cos(k * X[i][2]);
+      for (std::size_t i = 0; i < X.size(); ++i) mode += solids.masses()[i] * solids.velocities()[i][2] * std::cos(k * X[i][2]);
       if (last < 0 && mode >= 0) {
         zero = last_time + (solids.time() - last_time) * last / (last - mode);
         if (zeros++ == 0) first_zero = zero;
@@ -202,19 +207,18 @@ TEST_P(Both, BarRingsAtLovesFrequency) {
 TEST_P(Both, BarsInCollisionExchangeTheirVelocities) {
   // Two like bars, end on, one at rest, slip-free only along the axis: after 2 L/c the struck one has all the momentum.
   const double length = 0.04, dx = 0.001;
-  SolidBody left = body(Box{Vec3(-length, -0.0025, -0.0025), Vec3(0, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0)),
-            right = body(Box{Vec3(0, -0.0025, -0.0025), Vec3(length, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0));
+  Body left = body(Box{Vec3(-length, -0.0025, -0.0025), Vec3(0, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0)),
+       right = body(Box{Vec3(0, -0.0025, -0.0025), Vec3(length, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0));
   left.velocity = Vec3(10, 0, 0);
   right.name = "struck";
-  Settings s = scene({left, right}, dx);
-  s.symmetry.axis = {false, true, true};
-  Solids solids(s);
+  Scene s = scene({left, right}, dx);
+  s.around.symmetry.axis = {false, true, true};
+  Solids solids(s.solids, s.around);
   const std::size_t first = solids.particles_by_body()[0];
-  const SolidLedger start = solids.ledger();
+  const BodyLedger start = solids.ledger();
   solids.advance(4 * length / std::sqrt(young / density));
   Vec3 momentum[2] = {Vec3::Zero(), Vec3::Zero()};
-  for (std::size_t i = 0; i < solids.particle_count(); ++i)
-    momentum[i >= first] += solids.particle_mass(i) * solids.velocities()[i];
+  for (std::size_t i = 0; i < solids.particle_count(); ++i) momentum[i >= first] += solids.masses()[i] * solids.velocities()[i];
   EXPECT_NEAR(momentum[1][0] / start.momentum[0], 1.0, 0.05);
   EXPECT_NEAR((momentum[0][0] + momentum[1][0]) / start.momentum[0], 1.0, 1e-12);
   EXPECT_NEAR(solids.ledger().balance() / start.balance(), 1.0, 1e-3);
@@ -224,18 +228,18 @@ TEST_P(Both, BarBouncesOffAPlane) {
   const double length = 0.04;
   double lost[2];
   for (int level = 0; level < 2; ++level) {
-    SolidBody bar = body(Box{Vec3(0, -0.004, -0.004), Vec3(length, 0.004, 0.004)}, GetParam(), elastic(young, 0.0));
+    Body bar = body(Box{Vec3(0, -0.004, -0.004), Vec3(length, 0.004, 0.004)}, GetParam(), elastic(young, 0.0));
     bar.velocity = Vec3(-10, 0, 0);
-    Settings s = scene({bar}, level == 0 ? 0.002 : 0.001);
-    s.symmetry.axis = {false, true, true};
-    s.planes = {{0, 0.0, true}};
-    Solids solids(s);
+    Scene s = scene({bar}, level == 0 ? 0.002 : 0.001);
+    s.around.symmetry.axis = {false, true, true};
+    s.solids.planes = {{0, 0.0, true}};
+    Solids solids(s.solids, s.around);
     const double mass = solids.ledger().mass, contact = 2 * length / std::sqrt(young / density);
     solids.advance(0.9 * contact);
     EXPECT_LT(solids.ledger().momentum[0], 9.0 * mass);
     solids.advance(1.5 * contact);
     lost[level] = 1 - solids.ledger().momentum[0] / (10 * mass);
-    for (const Vec3& x : solids.positions()) EXPECT_GT(x[0], 0.4 * s.lattice.spacing);
+    for (const Vec3& x : solids.positions()) EXPECT_GT(x[0], 0.4 * s.around.lattice.spacing);
   }
   // The first layer stops dead: what that takes falls with its thickness.
   EXPECT_LT(lost[1], 0.08);
@@ -245,18 +249,18 @@ TEST_P(Both, BarBouncesOffAPlane) {
 TEST_P(Both, QuarterEqualsWhole) {
   // Between symmetry planes a quarter of a plate that is struck moves as the whole does.
   const auto run = [&](bool quarter) {
-    SolidBody ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
-    SolidBody plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
+    Body ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
+    Body plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
     plate.name = "plate";
     ball.velocity = Vec3(0, 0, -500);
-    Settings s = scene({ball, plate}, 0.001);
-    s.symmetry.axis = {quarter, quarter, false};
-    auto solids = std::make_unique<Solids>(s);
+    Scene s = scene({ball, plate}, 0.001);
+    s.around.symmetry.axis = {quarter, quarter, false};
+    auto solids = std::make_unique<Solids>(s.solids, s.around);
     solids->advance(5e-6);
     return solids;
   };
   const auto whole = run(false), quarter = run(true);
-  const SolidLedger a = whole->ledger(), b = quarter->ledger();
+  const BodyLedger a = whole->ledger(), b = quarter->ledger();
   EXPECT_NEAR(b.kinetic * 4 / a.kinetic, 1.0, 1e-9);
   EXPECT_NEAR(b.plastic * 4 / a.plastic, 1.0, 1e-8);
   EXPECT_NEAR(b.momentum[2] * 4 / a.momentum[2], 1.0, 1e-9);
@@ -266,13 +270,13 @@ TEST_P(Both, QuarterEqualsWhole) {
 
 TEST_P(Both, ThreadsDoNotChangeADigit) {
   const auto run = [&](int threads) {
-    SolidBody ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
-    SolidBody plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
+    Body ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
+    Body plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
     plate.name = "plate";
     ball.velocity = Vec3(0, 0, -2000);
-    Settings s = scene({ball, plate}, 0.001);
-    s.numerics.threads = threads;
-    Solids solids(s);
+    Scene s = scene({ball, plate}, 0.001);
+    s.around.numerics.threads = threads;
+    Solids solids(s.solids, s.around);
     solids.advance(2e-6);
     return solids.field("position");
   };
@@ -281,21 +285,21 @@ TEST_P(Both, ThreadsDoNotChangeADigit) {
 }
 
 TEST(Solids, PointsAreExactForLinearMotionAndHandBackWhatTheyGet) {
-  Settings s = scene({body(block, Description::total_lagrangian)}, 0.005);
-  s.symmetry.axis = {true, false, false};
-  Solids solids(s);
+  Scene s = scene({body(block, Description::total_lagrangian)}, 0.005);
+  s.around.symmetry.axis = {true, false, false};
+  Solids solids(s.solids, s.around);
   Mat3 M;
   M << 3, 0, 0, 0, -2, 5, 0, 1, 4;  // odd across the plane x = 0, as symmetry wants
   set_motion(solids, M);
   for (const Vec3& X : {Vec3(0.03, 0.02, 0.025), Vec3(0.0, 0.0, 0.025), Vec3(0.01, -0.003, 0.0)}) {
-    const Solids::Point point = solids.locate(X);
-    const Solids::PointValues values = solids.read(point);
+    const BodyPoint point = solids.locate(X);
+    const MaterialPoint values = solids.read(point);
     EXPECT_LT((values.position - X).norm(), 1e-12);
     EXPECT_LT((values.velocity - M * X).norm(), 1e-11);
   }
   const Vec3 X(0.02, 0.02, 0.025), impulse(1, 2, 3);
   std::vector<Vec3> received(solids.particle_count(), Vec3::Zero());
-  solids.distribute(solids.locate(X), impulse, received);
+  scatter_to_carriers(solids.locate(X), impulse, received);
   Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
   for (std::size_t i = 0; i < received.size(); ++i) {
     sum += received[i];
@@ -309,10 +313,10 @@ TEST(Solids, HourglassStiffnessLeavesAffineMotionAlone) {
   // With and without it a stretched block feels the same forces: to round-off, also in a jittered lattice.
   std::vector<Vec3> force[2];
   for (int with = 0; with < 2; ++with) {
-    Settings s = scene({body(block, Description::total_lagrangian)}, 0.005);
-    s.lattice.jitter = 0.3;
-    s.solid_numerics.hourglass = with;
-    Solids solids(s);
+    Scene s = scene({body(block, Description::total_lagrangian)}, 0.005);
+    s.around.lattice.jitter = 0.3;
+    s.solids.numerics.hourglass = with;
+    Solids solids(s.solids, s.around);
     Mat3 L;
     L << 300, -200, 50, 100, -20, 70, 10, 40, 60;
     set_motion(solids, L);
@@ -329,9 +333,9 @@ TEST(Solids, HourglassStiffnessLeavesAffineMotionAlone) {
 }
 
 TEST(Solids, MistakesNameTheBodyAndTheRemedy) {
-  const auto message = [](const Settings& s) {
+  const auto message = [](const Scene& s) {
     try {
-      Solids solids(s);
+      Solids solids(s.solids, s.around);
     } catch (const std::invalid_argument& mistake) {
       return std::string(mistake.what());
     }
@@ -341,10 +345,10 @@ TEST(Solids, MistakesNameTheBodyAndTheRemedy) {
       message(scene({body(Box{Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.001)}, Description::total_lagrangian)}, 0.005));
   EXPECT_NE(thin.find("'body'"), std::string::npos) << thin;
   EXPECT_NE(thin.find("finer spacing"), std::string::npos) << thin;
-  SolidBody square = body(block, Description::total_lagrangian);
+  Body square = body(block, Description::total_lagrangian);
   square.residual_stress = 1e8;
   EXPECT_NE(message(scene({square}, 0.005)).find("residual_stress"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace undex::sph
+}  // namespace undex::solid

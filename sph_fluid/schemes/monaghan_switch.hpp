@@ -6,7 +6,7 @@
 // factor for shear (Balsara's needs the curl, three more sums a particle; explosions compress far more than they shear).
 #pragma once
 
-#include "sph_fluid/schemes/monaghan_scheme.hpp"
+#include "sph_fluid/schemes/monaghan.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 

@@ -1,10 +1,10 @@
 // The Riemann scheme with corrected kernel gradients, symmetrically (Vila 1999, Math. Models Methods Appl. Sci. 9, 161):
 //   g_ij = (B_i + B_j)/2 grad W_ij,   B = M^-1 with the moment matrix M of reconstruction.hpp
-// p* and u* are those of riemann_scheme.hpp, and with v* = (v_i + v_j)/2 + (u* - (u_i + u_j)/2) e
+// p* and u* are those of riemann.hpp, and with v* = (v_i + v_j)/2 + (u* - (u_i + u_j)/2) e
 //   (d rho/dt)_i = 2 rho_i sum_j V_j (v_i - v*) . g_ij
 //   (d v/dt)_i   = -2 sum_j m_j p*/(rho_i rho_j) g_ij
 //   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i - v*) . g_ij
-// but where two particles of one material approach each other their part of the density rate is that of riemann_scheme.hpp,
+// but where two particles of one material approach each other their part of the density rate is that of riemann.hpp,
 //   2 m_j (v_i . e - u*)(-F r)
 // the time derivative of sum_j m_j W_ij, with the kernel's own gradient: B, made of the volumes that are carried, would divide
 // out by how much these differ from the space there is, and an error of density within a shock's front would stay. g_ij = -g_ji,
@@ -16,7 +16,7 @@
 // mirrored state has no moments of its own, g = B_i grad W.
 #pragma once
 
-#include "sph_fluid/schemes/riemann_scheme.hpp"
+#include "sph_fluid/schemes/riemann.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -30,20 +30,17 @@ struct CorrectedReconstruction : Reconstruction<T> {
     using D = Vec<double>;
     GradientRow plain[lanes<double>];
     PairInput own = in;
-    own.gradient = plain;
+    own.second = plain;
     Base::store(s, gas, own, 0, count);
     const D one = broadcast(1.0), zero{};
-    const D xx = s[0], yy = this->dimension < 2 ? one : s[1], zz = this->dimension < 3 ? one : s[2], xy = s[3], yz = s[4],
-            zx = s[5];
-    const D a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
-    const D d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
-    const D determinant = xx * a + xy * b + zx * c;
+    const Adjugate<D> a = adjugate(s, this->dimension, one);
     constexpr double none = 0.3, whole = 0.6;  // of the determinant
-    const D trust = minimum(maximum((determinant - none) * (1.0 / (whole - none)), zero), one), rest = one - trust;
-    const D inverse = trust / (determinant > none ? determinant : one);
-    const D B[6] = {a * inverse + rest, d * inverse + rest, f * inverse + rest, b * inverse, e * inverse, c * inverse};
+    const D trust = minimum(maximum((a.determinant - none) * (1.0 / (whole - none)), zero), one), rest = one - trust;
+    const D inverse = trust / (a.determinant > none ? a.determinant : one);
+    const D B[6] = {a.xx * inverse + rest, a.yy * inverse + rest, a.zz * inverse + rest,
+                    a.xy * inverse,        a.yz * inverse,        a.zx * inverse};
     for (int l = 0; l < count; ++l) {
-      CorrectedRow& out = in.corrected[first + l];
+      CorrectedRow& out = static_cast<CorrectedRow*>(in.second)[first + l];
       out.gradient = plain[l];
       for (int k = 0; k < 6; ++k) out.correction[k] = float(B[k][l]);
     }
@@ -59,7 +56,7 @@ struct CorrectedState : ReconstructedState<V> {
   template <class Read>
   UNDEX_INLINE void read_second(Read entry) {
     ReconstructedState<V>::read_second(entry);
-    for (int k = 0; k < 6; ++k) B[k] = entry(sizeof(GradientRow) / sizeof(float) + k);
+    for (int k = 0; k < 6; ++k) B[k] = entry(length_of<GradientRow> + k);
   }
 };
 
@@ -109,7 +106,7 @@ struct RiemannCorrected {
     sj.closing = maximum(sj.closing, speed);
   }
 
-  /// As in riemann_scheme.hpp, with the wall's velocity for v*.
+  /// As in riemann.hpp, with the wall's velocity for v*.
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const V jump = -mirrored(i, w, pair).approach * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V p_star = maximum(i.p + T(0.5) * Plain::switched(maximum(jump, V{}), i.c) * i.rho * i.c * jump, V{});

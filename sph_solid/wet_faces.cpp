@@ -1,3 +1,4 @@
+// The wet faces of solids in particles as a mesh of material points, for a coupling by faces.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -6,14 +7,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "coupling/participant.hpp"
 #include "sph_solid/solid_faces.hpp"
+#include "sph_solid/solids_implementation.hpp"
 
-namespace undex::coupling {
+namespace undex::solid {
 namespace {
 
 /// A patch of surface over u and v, with the direction out of the body.
-struct Patch {
+struct FacePatch {
   std::function<Vec3(double u, double v)> place;
   double low[2], high[2];  ///< range of u and v
   double length[2];        ///< of the patch along each [m]
@@ -28,9 +29,9 @@ void kept_angles(int axis, const std::array<bool, 3>& mirror, double& low, doubl
   high = mirror[u] ? half : mirror[v] ? 2.0 * half : 4.0 * half;
 }
 
-Patch round_patch(int axis, const Vec3& center, double radius, double low, double high, double sign,
-                  const std::array<bool, 3>& mirror) {
-  Patch patch;
+FacePatch round_patch(int axis, const Vec3& center, double radius, double low, double high, double sign,
+                      const std::array<bool, 3>& mirror) {
+  FacePatch patch;
   kept_angles(axis, mirror, patch.low[0], patch.high[0]);
   patch.low[1] = mirror[axis] ? std::max(low, 0.0) : low;
   patch.high[1] = high;
@@ -53,8 +54,9 @@ Patch round_patch(int axis, const Vec3& center, double radius, double low, doubl
   return patch;
 }
 
-Patch flat_patch(int axis, double position, const Vec3& low, const Vec3& high, double sign, const std::array<bool, 3>& mirror) {
-  Patch patch;
+FacePatch flat_patch(int axis, double position, const Vec3& low, const Vec3& high, double sign,
+                     const std::array<bool, 3>& mirror) {
+  FacePatch patch;
   const int a[2] = {(axis + 1) % 3, (axis + 2) % 3};
   for (int k = 0; k < 2; ++k) {
     patch.low[k] = mirror[a[k]] ? std::max(low[a[k]], 0.0) : low[a[k]];
@@ -72,15 +74,15 @@ Patch flat_patch(int axis, double position, const Vec3& low, const Vec3& high, d
   return patch;
 }
 
-std::vector<Patch> wet_patches(const sph::SolidBody& body, const sph::Settings& settings) {
-  const auto& mirror = settings.symmetry.axis;
-  std::vector<std::string> names = body.wet.empty() ? sph::solid_faces(body.shape.base, settings.dimension) : body.wet;
+std::vector<FacePatch> wet_patches(const Body& body, const sph::Settings& around) {
+  const auto& mirror = around.symmetry.axis;
+  std::vector<std::string> names = body.wet.empty() ? solid_faces(body.shape.base, around.dimension) : body.wet;
   const auto refuse = [&](const std::string& name) {
     return std::invalid_argument(
         "solid '" + body.name + "': coupling.solids = \"surface\" cannot mesh the face '" + name +
         "'; name the sides of a tube, a cylinder or a box in wet, or use coupling.solids = \"particles\"");
   };
-  std::vector<Patch> patches;
+  std::vector<FacePatch> patches;
   for (const std::string& name : names) {
     if (const auto* tube = std::get_if<TubeShape>(&body.shape.base); tube && (name == "inner" || name == "outer")) {
       const bool inner = name == "inner";
@@ -102,7 +104,7 @@ std::vector<Patch> wet_patches(const sph::SolidBody& body, const sph::Settings& 
 }
 
 /// Adds a grid of quadrilaterals about a spacing wide. Where a round patch closes upon itself the last nodes are the first.
-void mesh(const Patch& patch, double spacing, WetSurface& surface) {
+void mesh(const FacePatch& patch, double spacing, WetSurface& surface) {
   const int count[2] = {std::max(1, int(std::lround(patch.length[0] / spacing))),
                         std::max(1, int(std::lround(patch.length[1] / spacing)))};
   const int first = int(surface.nodes.size());
@@ -127,47 +129,56 @@ void mesh(const Patch& patch, double spacing, WetSurface& surface) {
 
 }  // namespace
 
-ParticleParticipant::ParticleParticipant(sph::Solids& solids) : solids_(solids) {
-  const sph::Settings& settings = solids.settings();
-  for (const sph::SolidBody& body : settings.solids)
-    for (const Patch& patch : wet_patches(body, settings)) mesh(patch, body.spacing.value_or(settings.lattice.spacing), surface_);
-  points_.resize(surface_.nodes.size());
+void Solids::mesh_wet_faces() {
+  Implementation& s = *self_;
+  for (const Body& body : s.settings.bodies)
+    for (const FacePatch& patch : wet_patches(body, s.around))
+      mesh(patch, body.spacing.value_or(s.around.lattice.spacing), s.surface);
+  s.surface_points.resize(s.surface.nodes.size());
 #pragma omp parallel for schedule(dynamic, 64)
-  for (std::size_t n = 0; n < points_.size(); ++n) points_[n] = solids.locate(surface_.nodes[n]);
-  for (auto* field : {&position_, &velocity_, &acceleration_}) field->resize(points_.size());
-  share_mass();
-  read_motion();
+  for (std::size_t n = 0; n < s.surface_points.size(); ++n) s.surface_points[n] = s.locate(s.surface.nodes[n]);
+  for (auto* field : {&s.surface_position, &s.surface_velocity, &s.surface_acceleration}) field->resize(s.surface_points.size());
+  s.share_mass();
+  s.show_surface_motion();
 }
 
-void ParticleParticipant::share_mass() {
-  std::vector<double> seen(solids_.particle_count(), 0.0);
-  const auto each = [](const sph::Solids::Point& point, auto use) {
-    for (std::size_t k = 0; k < point.particles.size(); ++k) use(point.particles[k], std::abs(point.weights[k]));
-  };
-  for (const sph::Solids::Point& point : points_) each(point, [&](std::uint32_t i, double weight) { seen[i] += weight; });
-  for (const sph::Solids::Point& point : points_) {
-    double& mass = mass_.emplace_back(0.0);
-    each(point, [&](std::uint32_t i, double weight) {
-      if (weight > 0.0) mass += solids_.particle_mass(i) * weight / seen[i];
-    });
+void Solids::Implementation::share_mass() {
+  std::vector<double> seen(particles.size(), 0.0);
+  for (const BodyPoint& point : surface_points)
+    for (const BodyPoint::Share& share : point.motion) seen[share.carrier] += std::abs(share.weight);
+  for (const BodyPoint& point : surface_points) {
+    double& mass = surface_mass.emplace_back(0.0);
+    for (const BodyPoint::Share& share : point.motion) {
+      const double weight = std::abs(share.weight);
+      if (weight > 0.0) mass += particles.mass[share.carrier] * weight / seen[share.carrier];
+    }
   }
 }
 
-void ParticleParticipant::advance(double t_end, std::span<const Vec3> impulse) {
-  particle_impulse_.assign(solids_.particle_count(), Vec3::Zero());
-  for (std::size_t n = 0; n < impulse.size(); ++n) solids_.distribute(points_[n], impulse[n], particle_impulse_);
-  solids_.advance(t_end, particle_impulse_);
-  read_motion();
+/// The nodes' impulses [N s] as steady forces on the particles over an interval [s].
+void Solids::Implementation::spread_impulse(std::span<const Vec3> wet_impulse, double interval) {
+  std::fill(impulse_force.begin(), impulse_force.end(), Vec3::Zero());
+  for (std::size_t n = 0; n < wet_impulse.size(); ++n) scatter_to_carriers(surface_points[n], wet_impulse[n], impulse_force);
+  if (!wet_impulse.empty())
+    for (Vec3& force : impulse_force) force /= interval;
 }
 
-void ParticleParticipant::read_motion() {
+void Solids::Implementation::show_surface_motion() {
+  if (surface_points.empty()) return;
+  const auto timer = timers.measure("solid surface");
 #pragma omp parallel for schedule(static)
-  for (std::size_t n = 0; n < points_.size(); ++n) {
-    const sph::Solids::PointValues values = solids_.read(points_[n]);
-    position_[n] = values.position;
-    velocity_[n] = values.velocity;
-    acceleration_[n] = values.acceleration;
+  for (std::size_t n = 0; n < surface_points.size(); ++n) {
+    const MaterialPoint values = read(surface_points[n]);
+    surface_position[n] = values.position;
+    surface_velocity[n] = values.velocity;
+    surface_acceleration[n] = values.acceleration;
   }
 }
 
-}  // namespace undex::coupling
+const WetSurface& Solids::wet_surface() const { return self_->surface; }
+std::span<const Vec3> Solids::wet_positions() const { return self_->surface_position; }
+std::span<const Vec3> Solids::wet_velocities() const { return self_->surface_velocity; }
+std::span<const Vec3> Solids::wet_accelerations() const { return self_->surface_acceleration; }
+std::span<const double> Solids::wet_masses() const { return self_->surface_mass; }
+
+}  // namespace undex::solid

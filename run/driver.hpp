@@ -1,0 +1,72 @@
+// Who decides on a step, takes it and says what set it: the water alone, a body alone, water and a body coupled by its wet faces,
+// or water and particles of solids as one system.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "coupling/coupler.hpp"
+#include "coupling/particle_system.hpp"
+
+namespace undex::run {
+
+/// The last step: its size [s], and what it was and what set it, in one phrase.
+struct Step {
+  double size = 0;
+  std::string words = "-";
+};
+
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  /// One step (a coupling window), not beyond `end` [s].
+  virtual Step advance(double end) = 0;
+  /// Does water act on a body, so that the body's external work is received from it?
+  virtual bool joins_water_and_body() const { return false; }
+  /// What has crossed the wet faces; nothing where nothing is coupled by them.
+  virtual std::optional<coupling::InterfaceLedger> interface() const { return std::nullopt; }
+  virtual PassTimers timers() const { return {}; }  ///< its own
+};
+
+class WaterAlone : public Driver {
+ public:
+  explicit WaterAlone(sph::Fluid& fluid) : fluid_(fluid) {}
+  Step advance(double end) override;
+
+ private:
+  sph::Fluid& fluid_;
+};
+
+class BodyAlone : public Driver {
+ public:
+  explicit BodyAlone(DeformableBody& body) : body_(body) {}
+  Step advance(double end) override;
+
+ private:
+  DeformableBody& body_;
+};
+
+class Coupled : public Driver {
+ public:
+  Coupled(sph::Fluid& fluid, DeformableBody& body, const coupling::Settings& settings) : coupler_(fluid, body, settings) {}
+  Step advance(double end) override;
+  bool joins_water_and_body() const override { return true; }
+  std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
+  PassTimers timers() const override { return coupler_.timers(); }
+
+ private:
+  coupling::Coupler coupler_;
+};
+
+class OneSystem : public Driver {
+ public:
+  OneSystem(sph::Fluid& fluid, solid::Solids& solids, const coupling::Settings& settings)
+      : system_(fluid, solids, settings.free_slip) {}
+  Step advance(double end) override;
+  bool joins_water_and_body() const override { return true; }
+
+ private:
+  coupling::ParticleSystem system_;
+};
+
+}  // namespace undex::run
