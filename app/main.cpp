@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
-#include "judge/judge.hpp"
+#include "judge/rejudge.hpp"
 #include "study/compare_runs.hpp"
 #include "study/study.hpp"
 

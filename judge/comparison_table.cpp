@@ -51,6 +51,122 @@ bool read_value(const std::string& cell, ReferenceTable::Value& value) {
   return sign == std::string::npos || read_number(cell.substr(sign + 2), value.uncertainty);
 }
 
+/// The cells of a comparison. Columns: the row's label, a value per run; then per source its value and each run's difference
+/// from it. A source's name spans its columns.
+class Grid {
+ public:
+  Grid(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference)
+      : runs_(runs.size()), lines_{heading(runs, reference)} {
+    for (const ReferenceTable::Row& row : reference.rows) add_line(runs, row);
+    measure();
+  }
+
+  std::size_t columns() const { return widths_.size(); }
+  std::size_t first_source() const { return runs_ + 1; }
+
+  /// As many sources side by side from `begin` on as fit, one at least: the column behind them.
+  std::size_t last_that_fits(std::size_t begin, std::size_t max_width) const {
+    std::size_t end = begin, total = left_width();
+    while (end < columns() && (end == begin || total + 3 + source_width(end) <= max_width)) {
+      total += 3 + source_width(end);
+      end += per_source();
+    }
+    return end;
+  }
+
+  /// The sources in columns begin..end, with the runs' values. Below the first block lines that none of them knows are left out.
+  std::string block(std::size_t begin, std::size_t end) const {
+    std::string text;
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      bool known = l == 0 || begin == first_source();
+      for (std::size_t c = begin; c < end; c += per_source()) known = known || lines_[l][c] != "-";
+      if (!known) continue;
+      text += line(l, begin, end) + "\n";
+      if (l == 0) text += std::string(block_width(begin, end), '-') + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::size_t per_source() const { return runs_ + 1; }
+
+  static std::vector<std::string> heading(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference) {
+    std::vector<std::string> cells{""};
+    for (const LabelledMetrics& run : runs) cells.push_back(run.label);
+    for (const std::string& source : reference.sources) {
+      cells.push_back(source);
+      cells.resize(cells.size() + runs.size());
+    }
+    return cells;
+  }
+
+  /// A row that no run knows is left out.
+  void add_line(const std::vector<LabelledMetrics>& runs, const ReferenceTable::Row& row) {
+    std::vector<double> values;
+    bool known = false;
+    for (const LabelledMetrics& run : runs) {
+      const double* mine = output::find_number(run.metrics, row.metric);
+      known = known || mine;
+      values.push_back(mine ? *mine * row.scale : nan);
+    }
+    if (!known) return;
+    std::vector<std::string> line{row.label + (row.unit.empty() ? "" : " [" + row.unit + "]")};
+    for (const double value : values) line.push_back(number(value, row.unit));
+    for (const ReferenceTable::Value& theirs : row.values) {
+      line.push_back(number(theirs.value, row.unit) +
+                     (std::isnan(theirs.uncertainty) ? "" : "±" + print("%g", theirs.uncertainty)));
+      for (const double value : values) line.push_back(difference_text(difference(value, theirs.value, row.unit), row.unit));
+    }
+    lines_.push_back(std::move(line));
+  }
+
+  void measure() {
+    widths_.assign(lines_[0].size(), 0);
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      for (std::size_t c = 0; c < columns(); ++c)
+        if (l > 0 || c <= runs_) widths_[c] = std::max(widths_[c], width(lines_[l][c]));
+    for (std::size_t c = first_source(); c < columns(); c += per_source()) {
+      const std::size_t all = source_width(c), name = width(lines_[0][c]);
+      if (name > all) widths_[c] += name - all;
+    }
+  }
+
+  std::size_t source_width(std::size_t c) const {
+    std::size_t total = widths_[c];
+    for (std::size_t i = 1; i < per_source(); ++i) total += 1 + widths_[c + i];
+    return total;
+  }
+
+  /// Of the label and the runs' values.
+  std::size_t left_width() const {
+    std::size_t left = widths_[0];
+    for (std::size_t r = 1; r <= runs_; ++r) left += 3 + widths_[r];
+    return left;
+  }
+
+  std::size_t block_width(std::size_t begin, std::size_t end) const {
+    std::size_t total = left_width();
+    for (std::size_t c = begin; c < end; c += per_source()) total += 3 + source_width(c);
+    return total;
+  }
+
+  std::string line(std::size_t l, std::size_t begin, std::size_t end) const {
+    const std::vector<std::string>& cells = lines_[l];
+    std::string text = padded_right(cells[0], widths_[0]);
+    for (std::size_t r = 1; r <= runs_; ++r) text += "   " + padded_left(cells[r], widths_[r]);
+    for (std::size_t c = begin; c < end; c += per_source()) {
+      text += "   " + padded_left(cells[c], l == 0 ? source_width(c) : widths_[c]);
+      for (std::size_t i = 1; l > 0 && i < per_source(); ++i) text.append(" ").append(padded_left(cells[c + i], widths_[c + i]));
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+  std::size_t runs_;
+  std::vector<std::vector<std::string>> lines_;  ///< the heading first
+  std::vector<std::size_t> widths_;
+};
+
 }  // namespace
 
 ReferenceTable read_reference_table(const std::filesystem::path& path) {
@@ -90,73 +206,11 @@ ReferenceTable read_reference_table(const std::filesystem::path& path) {
 }
 
 std::string format_comparison(const std::vector<LabelledMetrics>& runs, const ReferenceTable& reference, std::size_t max_width) {
-  // Columns: the row's label, a value per run; then per source its value and each run's difference from it.
-  const std::size_t n = runs.size(), per_source = n + 1;
-  std::vector<std::vector<std::string>> lines(1, {""});
-  for (const LabelledMetrics& run : runs) lines[0].push_back(run.label);
-  for (const std::string& source : reference.sources) {
-    lines[0].push_back(source);
-    lines[0].resize(lines[0].size() + n);
-  }
-  for (const ReferenceTable::Row& row : reference.rows) {
-    std::vector<double> values;
-    bool known = false;
-    for (const LabelledMetrics& run : runs) {
-      const double* mine = output::find_number(run.metrics, row.metric);
-      known = known || mine;
-      values.push_back(mine ? *mine * row.scale : nan);
-    }
-    if (!known) continue;
-    std::vector<std::string> line{row.label + (row.unit.empty() ? "" : " [" + row.unit + "]")};
-    for (const double value : values) line.push_back(number(value, row.unit));
-    for (const ReferenceTable::Value& theirs : row.values) {
-      line.push_back(number(theirs.value, row.unit) +
-                     (std::isnan(theirs.uncertainty) ? "" : "±" + print("%g", theirs.uncertainty)));
-      for (const double value : values) line.push_back(difference_text(difference(value, theirs.value, row.unit), row.unit));
-    }
-    lines.push_back(std::move(line));
-  }
-
-  // A source's name spans its columns: value and differences.
-  std::vector<std::size_t> widths(lines[0].size(), 0);
-  for (std::size_t l = 0; l < lines.size(); ++l)
-    for (std::size_t c = 0; c < widths.size(); ++c)
-      if (l > 0 || c <= n) widths[c] = std::max(widths[c], width(lines[l][c]));
-  const auto source_width = [&](std::size_t c) {
-    std::size_t total = widths[c];
-    for (std::size_t i = 1; i < per_source; ++i) total += 1 + widths[c + i];
-    return total;
-  };
-  for (std::size_t c = n + 1; c < widths.size(); c += per_source) {
-    const std::size_t all = source_width(c), name = width(lines[0][c]);
-    if (name > all) widths[c] += name - all;
-  }
-
-  // As many sources side by side as fit; the others below, with the runs' values once more.
-  std::size_t left = widths[0];
-  for (std::size_t r = 1; r <= n; ++r) left += 3 + widths[r];
+  const Grid grid(runs, reference);
   std::string text;
-  for (std::size_t begin = n + 1; begin < widths.size();) {
-    std::size_t end = begin, total = left;
-    while (end < widths.size() && (end == begin || total + 3 + source_width(end) <= max_width)) {
-      total += 3 + source_width(end);
-      end += per_source;
-    }
-    if (begin > n + 1) text += "\n";
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-      bool known = l == 0 || begin == n + 1;
-      for (std::size_t c = begin; c < end; c += per_source) known = known || lines[l][c] != "-";
-      if (!known) continue;
-      std::string line = padded_right(lines[l][0], widths[0]);
-      for (std::size_t r = 1; r <= n; ++r) line += "   " + padded_left(lines[l][r], widths[r]);
-      for (std::size_t c = begin; c < end; c += per_source) {
-        line += "   " + padded_left(lines[l][c], l == 0 ? source_width(c) : widths[c]);
-        for (std::size_t i = 1; l > 0 && i < per_source; ++i)
-          line.append(" ").append(padded_left(lines[l][c + i], widths[c + i]));
-      }
-      line.erase(line.find_last_not_of(' ') + 1);
-      text += line + "\n" + (l == 0 ? std::string(total, '-') + "\n" : "");
-    }
+  for (std::size_t begin = grid.first_source(); begin < grid.columns();) {
+    const std::size_t end = grid.last_that_fits(begin, max_width);
+    text += (begin > grid.first_source() ? "\n" : "") + grid.block(begin, end);
     begin = end;
   }
   return text;

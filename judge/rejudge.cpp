@@ -1,9 +1,11 @@
+#include "judge/rejudge.hpp"
+
+#include <cstdio>
+
 #include "core/errors.hpp"
 #include "judge/judge.hpp"
 #include "output/run_folder.hpp"
 #include "scene/document.hpp"
-
-#include <cstdio>
 
 namespace undex::judge {
 namespace {

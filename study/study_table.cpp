@@ -43,6 +43,69 @@ std::vector<std::string> all_names(const std::vector<StudyRow>& rows, const Name
 /// Small errors as powers, so that columns of different size can be read.
 std::string error_text(double value) { return std::isnan(value) ? "-" : print("%.3e", value); }
 
+/// A column of study.csv on what a run cost and how well its ledgers close; empty where it was not computed.
+struct CostColumn {
+  const char* name;
+  std::string (*cell)(const StudyRow& row);
+};
+
+template <std::int64_t RunRecord::*number>
+std::string count(const StudyRow& row) {
+  return computed(row) ? std::to_string(row.record.*number) : "";
+}
+template <double RunRecord::*number>
+std::string ledger(const StudyRow& row) {
+  return computed(row) ? cell(row.record.*number) : "";
+}
+template <std::optional<double> RunRecord::*number>
+std::string optional_ledger(const StudyRow& row) {
+  return computed(row) ? cell((row.record.*number).value_or(nan)) : "";
+}
+double largest(const std::vector<double>& times) { return times.empty() ? nan : *std::max_element(times.begin(), times.end()); }
+
+const CostColumn cost_columns[] = {
+    {"cpu_time_s", [](const StudyRow& row) { return cell(least(row.cpu_times)); }},
+    {"cpu_time_largest_s", [](const StudyRow& row) { return cell(largest(row.cpu_times)); }},
+    {"wall_time_s", [](const StudyRow& row) { return cell(least(row.wall_times)); }},
+    {"timings", [](const StudyRow& row) { return row.cpu_times.empty() ? "" : std::to_string(row.cpu_times.size()); }},
+    {"threads", [](const StudyRow& row) { return computed(row) ? std::to_string(row.record.threads) : ""; }},
+    {"time_s", ledger<&RunRecord::time_s>},
+    {"steps", count<&RunRecord::steps>},
+    {"particles", count<&RunRecord::particles>},
+    {"wall_particles", count<&RunRecord::wall_particles>},
+    {"cells", count<&RunRecord::cells>},
+    {"particle_updates", count<&RunRecord::particle_updates>},
+    {"neighbour_interactions", count<&RunRecord::neighbour_interactions>},
+    {"solver_memory_bytes", count<&RunRecord::solver_memory_bytes>},
+    {"bytes_per_particle", [](const StudyRow& row) { return cell(bytes_per_particle(row.record)); }},
+    {"peak_memory_bytes", count<&RunRecord::peak_memory_bytes>},
+    {"mass_error", ledger<&RunRecord::mass_error>},
+    {"momentum_error", ledger<&RunRecord::momentum_error>},
+    {"energy_error", ledger<&RunRecord::energy_error>},
+    {"interface_energy_error", optional_ledger<&RunRecord::interface_energy_error>},
+    {"interface_impulse_error", optional_ledger<&RunRecord::interface_impulse_error>},
+};
+
+std::string clamp_cell(const RunRecord& record, const std::string& name) {
+  const auto found =
+      std::find_if(record.clamps.begin(), record.clamps.end(), [&](const auto& each) { return each.first == name; });
+  return found == record.clamps.end() ? "" : std::to_string(found->second);
+}
+
+std::vector<std::string> study_head(const StudyTable& table, const std::vector<std::string>& clamps,
+                                    const std::vector<std::string>& metrics) {
+  std::vector<std::string> cells{"run"};
+  cells.insert(cells.end(), table.axes.begin(), table.axes.end());
+  for (const char* name : {"curve", "problem", "status", "message"}) cells.emplace_back(name);
+  for (const std::string& error : table.errors) cells.push_back("error: " + error);
+  for (const std::string& error : table.errors) cells.push_back("pareto: " + error);
+  for (const CostColumn& column : cost_columns) cells.emplace_back(column.name);
+  for (const std::string& name : clamps) cells.push_back("clamp_" + name);
+  cells.insert(cells.end(), metrics.begin(), metrics.end());
+  cells.emplace_back("program");
+  return cells;
+}
+
 }  // namespace
 
 std::vector<ObservedOrders> observed_orders(const StudyTable& table) {
@@ -91,84 +154,27 @@ std::vector<std::vector<bool>> pareto_fronts(const StudyTable& table) {
 }
 
 std::string study_csv(const StudyTable& table) {
+  const std::vector<std::vector<bool>> fronts = pareto_fronts(table);
   const auto clamps = all_names(
       table.rows, [](const StudyRow& row) -> const auto& { return row.record.clamps; });
   const auto metrics = all_names(
       table.rows, [](const StudyRow& row) -> const auto& { return row.record.metrics; });
-  std::vector<std::string> cells{"run"};
-  cells.insert(cells.end(), table.axes.begin(), table.axes.end());
-  for (const char* name : {"curve", "problem", "status", "message"}) cells.emplace_back(name);
-  for (const std::string& error : table.errors) cells.push_back("error: " + error);
-  for (const std::string& error : table.errors) cells.push_back("pareto: " + error);
-  for (const char* name : {"cpu_time_s",
-                           "cpu_time_largest_s",
-                           "wall_time_s",
-                           "timings",
-                           "threads",
-                           "time_s",
-                           "steps",
-                           "particles",
-                           "wall_particles",
-                           "cells",
-                           "particle_updates",
-                           "neighbour_interactions",
-                           "solver_memory_bytes",
-                           "bytes_per_particle",
-                           "peak_memory_bytes",
-                           "mass_error",
-                           "momentum_error",
-                           "energy_error",
-                           "interface_energy_error",
-                           "interface_impulse_error"})
-    cells.emplace_back(name);
-  for (const std::string& name : clamps) cells.push_back("clamp_" + name);
-  cells.insert(cells.end(), metrics.begin(), metrics.end());
-  cells.emplace_back("program");
-
-  std::string text = csv_row(cells);
-  const std::vector<std::vector<bool>> fronts = pareto_fronts(table);
+  std::string text = csv_row(study_head(table, clamps, metrics));
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const StudyRow& row = table.rows[r];
-    const RunRecord& record = row.record;
-    const auto count = [&](std::int64_t number) { return computed(row) ? std::to_string(number) : ""; };
-    const auto ledger = [&](double error) { return computed(row) ? cell(error) : ""; };
-    cells = {row.name};
+    std::vector<std::string> cells{row.name};
     cells.insert(cells.end(), row.values.begin(), row.values.end());
     cells.insert(cells.end(), {row.curve, row.problem, row.status, row.message});
     for (const double error : row.errors) cells.push_back(cell(error));
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       cells.emplace_back(std::isnan(row.errors[e]) ? "" : fronts[e][r] ? "1" : "0");
-    const double largest = row.cpu_times.empty() ? nan : *std::max_element(row.cpu_times.begin(), row.cpu_times.end());
-    cells.insert(cells.end(), {cell(least(row.cpu_times)),
-                               cell(largest),
-                               cell(least(row.wall_times)),
-                               row.cpu_times.empty() ? "" : std::to_string(row.cpu_times.size()),
-                               count(record.threads),
-                               ledger(record.time_s),
-                               count(record.steps),
-                               count(record.particles),
-                               count(record.wall_particles),
-                               count(record.cells),
-                               count(record.particle_updates),
-                               count(record.neighbour_interactions),
-                               count(record.solver_memory_bytes),
-                               cell(bytes_per_particle(record)),
-                               count(record.peak_memory_bytes),
-                               ledger(record.mass_error),
-                               ledger(record.momentum_error),
-                               ledger(record.energy_error),
-                               ledger(record.interface_energy_error.value_or(nan)),
-                               ledger(record.interface_impulse_error.value_or(nan))});
-    for (const std::string& name : clamps) {
-      const auto found =
-          std::find_if(record.clamps.begin(), record.clamps.end(), [&](const auto& each) { return each.first == name; });
-      cells.push_back(found == record.clamps.end() ? "" : std::to_string(found->second));
-    }
+    for (const CostColumn& column : cost_columns) cells.push_back(column.cell(row));
+    for (const std::string& name : clamps) cells.push_back(clamp_cell(row.record, name));
     for (const std::string& name : metrics) {
-      const double* value = output::find_number(record.metrics, name);
+      const double* value = output::find_number(row.record.metrics, name);
       cells.push_back(value ? cell(*value) : "");
     }
-    cells.push_back(record.program);
+    cells.push_back(row.record.program);
     text += csv_row(cells);
   }
   return text;

@@ -88,6 +88,12 @@ def datasets(path):
     return found
 
 
+def unequal_datasets(path, other):
+    """Names of what is not in both files, bit for bit."""
+    a, b = datasets(path), datasets(other)
+    return sorted(key for key in a.keys() | b.keys() if key not in a or key not in b or a[key].tobytes() != b[key].tobytes())
+
+
 def differences(one, other):
     """What differs, bit for bit, between the results of two runs; costs and the number of threads are not results."""
     found = []
@@ -111,9 +117,11 @@ def differences(one, other):
         found.append(f"fields: {sorted(names[0])} and {sorted(names[1])}")
     elif h5py:
         for name in sorted(n for n in names[0] if not n.endswith(".series")):
-            a, b = datasets(pathlib.Path(one) / name), datasets(pathlib.Path(other) / name)
-            unequal = [key for key in a.keys() | b.keys()
-                       if key not in a or key not in b or a[key].tobytes() != b[key].tobytes()]
+            unequal = unequal_datasets(pathlib.Path(one) / name, pathlib.Path(other) / name)
             if unequal:
-                found.append(f"{name}: {', '.join(sorted(unequal)[:5])}")
+                found.append(f"{name}: {', '.join(unequal[:5])}")
+    evidence = [pathlib.Path(folder) / "evidence.h5" for folder in (one, other)]
+    if h5py and all(path.is_file() for path in evidence):  # an older program leaves none
+        if unequal := unequal_datasets(*evidence):
+            found.append(f"evidence.h5: {', '.join(unequal[:5])}")
     return found

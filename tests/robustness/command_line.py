@@ -287,7 +287,7 @@ class Disk(Case):
             self.skipTest("only root may mount")
         for folder in ("small", "copy"):
             (self.here / folder).mkdir()
-        script = """mount -t tmpfs -o size=64k tmpfs small || exit 77
+        script = """mount -t tmpfs -o size=96k tmpfs small || exit 77
             "$@" -o small/first || exit 78
             dd if=/dev/zero of=small/filling bs=1k count=100 2>/dev/null; cp -a small copy/before
             "$@" -o small/first --force; code=$?
