@@ -1,10 +1,8 @@
-// The start: shapes filled with particles, and rigid walls lined with dummy particles.
+// The start: shapes filled with particles, and the lengths that go with a lattice.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::sph {
@@ -17,13 +15,6 @@ struct BodyParticles {
 /// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.
 std::vector<BodyParticles> fill_bodies(const Settings& settings);
 std::vector<BodyParticles> fill_solids(const Settings& settings);
-
-/// Symmetry planes and slip walls that lie between the lattice's cell faces, and what to do about it; one sentence each.
-std::vector<std::string> lattice_warnings(const Settings& settings);
-
-/// Dummy particles of the rigid walls: the lattice continued beyond every face that is not open, as deep as the kernel
-/// reaches (at least three layers). One MovingWall per slip condition; their velocity is zero.
-std::vector<MovingWall> line_walls(const Settings& settings);
 
 /// The smoothing length of the scene's lattice [m], and the reach of its kernel [m].
 double smoothing_length(const Settings& settings, double spacing);

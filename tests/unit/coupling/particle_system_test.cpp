@@ -1,6 +1,7 @@
 // Water and solids as one system of particles: momentum to round-off, work accounted for, and a solid that does not move is a
 // wall.
 #include "sph_fluid/lattice.hpp"
+#include "sph_fluid/walls/line_walls.hpp"
 #include "coupling/particle_system.hpp"
 
 #include <Eigen/Geometry>
@@ -75,7 +76,7 @@ TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
 TEST_P(Drop, HeavyBlockIsARigidWall) {
   const auto stagnation = [&](bool rigid) {
     Settings s = drop(GetParam(), 2.7e7, 30);
-    std::vector<MovingWall> lining;
+    std::vector<LinedWall> lining;
     if (rigid) {
       s.solids.clear();
       Wall floor = box_wall(Vec3(-0.2, -0.2, 0), Vec3(0.2, 0.2, 0.2));
@@ -87,7 +88,7 @@ TEST_P(Drop, HeavyBlockIsARigidWall) {
       lining = line_walls(lined);
     }
     Fluid fluid(s);
-    for (const MovingWall& wall : lining) fluid.add_moving_wall(wall);
+    for (const LinedWall& wall : lining) fluid.add_wall(wall);
     if (rigid) {
       while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
     } else {
