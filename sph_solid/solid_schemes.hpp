@@ -161,13 +161,13 @@ struct SolidForces {
     // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
     const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
     const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
-    const V repulsive = keep(pair.near, repulsion * tension * maximum(nearness * nearness - 1, V{}));
+    const V repulsive = keep(pair.in_reach, repulsion * tension * maximum(nearness * nearness - 1, V{}));
     const V central = F * (viscous + repulsive);
     add_force(central, pair, i.volume, j.volume, si, sj);
     const V power = T(0.5) * central * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V closing = keep(pair.near, -mu);
+    const V closing = keep(pair.in_reach, -mu);
     si.closing = maximum(si.closing, closing);
     sj.closing = maximum(sj.closing, closing);
   }
@@ -219,7 +219,7 @@ struct ContactForces {
     const V power = T(0.5) * pair.F * damped * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V speed = keep(pair.near, closing);
+    const V speed = keep(pair.in_reach, closing);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
   }
