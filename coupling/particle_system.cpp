@@ -5,7 +5,7 @@
 
 namespace undex::coupling {
 
-ParticleSystem::ParticleSystem(sph::Fluid& fluid, sph::Solids& solids, bool free_slip)
+ParticleSystem::ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip)
     : fluid_(fluid), solids_(solids), wall_(fluid.add_wall(solids.wet_wall(free_slip))) {}
 
 ParticleSystem::Step ParticleSystem::advance(double end) {

@@ -12,7 +12,7 @@ namespace undex::coupling {
 class ParticleSystem {
  public:
   /// Both must outlive it.
-  ParticleSystem(sph::Fluid& fluid, sph::Solids& solids, bool free_slip);
+  ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip);
 
   struct Step {
     double step = 0;       ///< [s]
@@ -24,7 +24,7 @@ class ParticleSystem {
 
  private:
   sph::Fluid& fluid_;
-  sph::Solids& solids_;
+  solid::Solids& solids_;
   sph::LinedIndex wall_;
   std::vector<Vec3> impulse_;  ///< [N s], per solid particle
 };

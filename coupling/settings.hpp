@@ -3,7 +3,7 @@
 
 namespace undex::coupling {
 
-/// How water and solids in particles (sph::Solids) meet.
+/// How water and solids in particles (solid::Solids) meet.
 enum class SolidContact {
   particles,  ///< one system of particles: a solid particle is a wall particle of the water's pair loop
   surface,    ///< through the wet faces, as water and finite elements do

@@ -14,7 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
 
 void check(const scene::TableReader& table, const scene::Scene& scene) {
-  const auto& solids = scene.fluid.solids;
+  const auto& solids = scene.solids.bodies;
   const bool rod = scene.structure ? std::holds_alternative<fem::RodMesh>(scene.structure->mesh)
                                    : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
   if (!rod)
@@ -31,7 +31,7 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
     const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
     return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low)};
   }
-  const sph::SolidBody& body = scene.fluid.solids.front();
+  const solid::Body& body = scene.solids.bodies.front();
   const auto& rod = std::get<Cylinder>(body.shape.base);
   return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low,
                                         0.5 * body.spacing.value_or(scene.fluid.lattice.spacing))};

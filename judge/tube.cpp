@@ -69,7 +69,7 @@ std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
       return TubeShape{t->axis, t->center, t->inner_radius, t->outer_radius, t->low, t->high};
   std::optional<TubeShape> nearest;
   double least = 1e300;
-  for (const sph::SolidBody& solid : scene.fluid.solids) {
+  for (const solid::Body& solid : scene.solids.bodies) {
     const double away = signed_distance(solid.shape, point, scene.fluid.dimension);
     if (const auto* t = std::get_if<TubeShape>(&solid.shape.base); t && away < least) {
       least = away;

@@ -60,7 +60,7 @@ class Coupled : public Driver {
 
 class OneSystem : public Driver {
  public:
-  OneSystem(sph::Fluid& fluid, sph::Solids& solids, const coupling::Settings& settings)
+  OneSystem(sph::Fluid& fluid, solid::Solids& solids, const coupling::Settings& settings)
       : system_(fluid, solids, settings.free_slip) {}
   Step advance(double end) override;
   bool joins_water_and_body() const override { return true; }

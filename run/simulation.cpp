@@ -47,10 +47,10 @@ void Simulation::build(const scene::Scene& scene) {
   };
   if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
   if (scene.structure) attempt([&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
-  sph::Solids* solids = nullptr;
-  if (!scene.fluid.solids.empty())
+  solid::Solids* solids = nullptr;
+  if (!scene.solids.bodies.empty())
     attempt([&] {
-      auto built = std::make_unique<sph::Solids>(scene.fluid);
+      auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
       if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
       solids = built.get();
       bodies_.push_back(std::move(built));
@@ -62,7 +62,7 @@ void Simulation::build(const scene::Scene& scene) {
 }
 
 /// Water acts on the first body that it touches; others follow in time.
-void Simulation::make_driver(const coupling::Settings& settings, sph::Solids* solids) {
+void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* solids) {
   const auto drive = [&](DeformableBody* driven, std::unique_ptr<Driver> driver) {
     driver_ = std::move(driver);
     for (const auto& body : bodies_)
@@ -85,7 +85,7 @@ void Simulation::take_start(const scene::Scene& scene) {
     }
   const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty() ||
                                             !scene.structure->planes.empty());
-  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.fluid.planes.empty() && !supports;
+  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !supports;
   start_mass_ = mass();
   start_momentum_ = momentum();
   start_angular_momentum_ = angular_momentum();

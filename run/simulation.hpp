@@ -65,7 +65,7 @@ class Simulation {
  private:
   void build(const scene::Scene& scene);
   /// `solids`: those in particles, if there are some.
-  void make_driver(const coupling::Settings& settings, sph::Solids* solids);
+  void make_driver(const coupling::Settings& settings, solid::Solids* solids);
   void take_start(const scene::Scene& scene);
   double mass() const;
   Vec3 momentum() const;

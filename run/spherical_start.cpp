@@ -121,7 +121,7 @@ std::string begin_spherically(scene::Scene& scene) {
       if (sphere.center[a] != 0.0) refuse(scene, "the center of '" + charge.name + "' must lie on every symmetry plane");
     }
   if (charge.velocity.norm() > 0 || medium.velocity.norm() > 0) refuse(scene, "charge and medium must be at rest");
-  for (const sph::SolidBody& solid : fluid.solids)
+  for (const solid::Body& solid : scene.solids.bodies)
     if (solid.velocity.norm() > 0 || solid.spin.norm() > 0) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
   if (charge.burn && !charge.burn->instantaneous && charge.burn->origin != sphere.center)
     refuse(scene, "'" + charge.name + "' must burn from its center");

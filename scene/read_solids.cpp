@@ -9,7 +9,7 @@
 namespace undex::scene {
 namespace {
 
-using sph::Description;
+using solid::Description;
 using sph::LatticeType;
 
 /// A vector in three dimensions; in two a number, about the axis that leaves the plane.
@@ -25,10 +25,10 @@ void read_spin(const TableReader& table, Vec3& into) {
   }
 }
 
-sph::SolidBody read_solid(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
+solid::Body read_solid(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   const int dimension = draft.scene.fluid.dimension;
   const TableReader table(node, path, "solids", dimension, draft.report);
-  sph::SolidBody solid{
+  solid::Body solid{
       .name = std::to_string(index), .shape = {Sphere{Vec3::Zero(), 0}, {}}, .material = {}, .spacing = {}, .wet = {}};
   table.need("name", "every solid has a name");
   table.read_name("name", solid.name);
@@ -69,7 +69,7 @@ sph::SolidBody read_solid(const Node& node, const std::string& path, Draft& draf
 void read_solid_scheme(const TableReader& top, Draft& draft) {
   const Node* node = top.table("solid_scheme");
   if (!node) return;
-  sph::SolidNumerics& numerics = draft.scene.fluid.solid_numerics;
+  solid::Numerics& numerics = draft.scene.solids.numerics;
   const TableReader table(*node, "solid_scheme", "solid_scheme", top.dimension(), draft.report);
   table.read("eta", numerics.eta);
   table.read("courant", numerics.courant);
@@ -91,7 +91,7 @@ void read_plane(const Node& node, std::size_t index, Draft& draft) {
         "axis", table.path_of("axis") + ": the scene has dimension = " + std::to_string(table.dimension()) + ", so no such axis");
   table.read("position", plane.position);
   table.read_choice<bool>("free_side", plane.body_above, {{"above", true}, {"below", false}});
-  draft.scene.fluid.planes.push_back(plane);
+  draft.scene.solids.planes.push_back(plane);
   draft.plane_nodes.push_back(&node);
 }
 
@@ -102,7 +102,7 @@ void read_solids(Draft& draft) {
   const auto solids = top.tables("solids");
   for (std::size_t i = 0; i < solids.size(); ++i) {
     bool shape_good = false;
-    draft.scene.fluid.solids.push_back(read_solid(*solids[i], element_path("solids", *solids[i], i), draft, shape_good, i));
+    draft.scene.solids.bodies.push_back(read_solid(*solids[i], element_path("solids", *solids[i], i), draft, shape_good, i));
     draft.solid_nodes.push_back(solids[i]);
     draft.solid_shape_good.push_back(shape_good);
   }

@@ -232,7 +232,7 @@ void read_structure(Draft& draft) {
       draft.structure_shape_good ? mesh_faces(structure.mesh, draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
   read_supports(table, faces, structure);
   read_loads(table, faces, structure);
-  structure.planes = draft.scene.fluid.planes;
+  structure.planes = draft.scene.solids.planes;
   structure.gravity = draft.scene.fluid.gravity;
   if (table.read("wet", structure.wet_faces))
     for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);

@@ -20,9 +20,10 @@ std::vector<Part> parts_of(Draft& draft) {
   for (std::size_t i = 0; i < fluid.bodies.size(); ++i)
     parts.push_back({"bodies." + fluid.bodies[i].name, fluid.bodies[i].name, &fluid.bodies[i].shape, draft.body_nodes[i],
                      draft.body_shape_good[i]});
-  for (std::size_t i = 0; i < fluid.solids.size(); ++i)
-    parts.push_back({"solids." + fluid.solids[i].name, fluid.solids[i].name, &fluid.solids[i].shape, draft.solid_nodes[i],
-                     draft.solid_shape_good[i]});
+  std::vector<solid::Body>& solids = draft.scene.solids.bodies;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    parts.push_back(
+        {"solids." + solids[i].name, solids[i].name, &solids[i].shape, draft.solid_nodes[i], draft.solid_shape_good[i]});
   return parts;
 }
 

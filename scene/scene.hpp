@@ -12,6 +12,7 @@
 #include "fem_structure/settings.hpp"
 #include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 
 namespace undex::scene {
 
@@ -88,7 +89,8 @@ struct Scene {
   std::string name, title;
   std::filesystem::path file;  ///< where it was read from
   double end_time = 0;         ///< [s]
-  sph::Settings fluid;         ///< everything in particles; without bodies where there is no fluid
+  sph::Settings fluid;         ///< and what all particles share; without bodies where there is no fluid
+  solid::Settings solids;      ///< solids in particles; rigid planes for structures too
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;

@@ -284,13 +284,14 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
   }
 }
 
-void put_solid(Writer& writer, const sph::SolidBody& solid) {
+void put_solid(Writer& writer, const solid::Body& solid) {
   writer.table("[[solids]]", "solids");
   writer.put("name", solid.name);
   if (!solid.shape.removed.empty())
     writer.line("subtract",
                 array(solid.shape.removed, [&](const Primitive& shape) { return inline_table(shape_pairs(shape, writer)); }));
-  writer.put("description", solid.description == sph::Description::total_lagrangian ? "total_lagrangian" : "updated_lagrangian");
+  writer.put("description",
+             solid.description == solid::Description::total_lagrangian ? "total_lagrangian" : "updated_lagrangian");
   writer.put("spacing", solid.spacing);
   writer.put("lattice", solid.lattice == sph::LatticeType::rings ? "rings" : "cartesian");
   writer.put("velocity", solid.velocity);
@@ -302,9 +303,9 @@ void put_solid(Writer& writer, const sph::SolidBody& solid) {
   put_solid_material(writer, "solids.material", solid.material);
 }
 
-void put_solids(Writer& writer, const sph::Settings& fluid) {
+void put_solids(Writer& writer, const solid::Settings& solids) {
   writer.table("[solid_scheme]", "solid_scheme");
-  const sph::SolidNumerics& numerics = fluid.solid_numerics;
+  const solid::Numerics& numerics = solids.numerics;
   writer.put("eta", numerics.eta);
   writer.put("courant", numerics.courant);
   writer.put("linear_viscosity", numerics.linear_viscosity);
@@ -313,7 +314,7 @@ void put_solids(Writer& writer, const sph::Settings& fluid) {
   writer.put("alpha", numerics.alpha);
   writer.put("beta", numerics.beta);
   writer.put("artificial_stress", numerics.artificial_stress);
-  for (const sph::SolidBody& solid : fluid.solids) put_solid(writer, solid);
+  for (const solid::Body& solid : solids.bodies) put_solid(writer, solid);
 }
 
 void put_planes(Writer& writer, const std::vector<RigidPlane>& planes) {
@@ -397,9 +398,9 @@ std::string to_toml(const Scene& scene) {
     put_structure(writer, *scene.structure);
     writer.set_dimension(dimension);
   }
-  if (!scene.fluid.solids.empty()) put_solids(writer, scene.fluid);
-  put_planes(writer, scene.fluid.planes);
-  if (scene.structure || !scene.fluid.solids.empty()) {
+  if (!scene.solids.bodies.empty()) put_solids(writer, scene.solids);
+  put_planes(writer, scene.solids.planes);
+  if (scene.structure || !scene.solids.bodies.empty()) {
     writer.table("[coupling]", "coupling");
     writer.put("slip", scene.coupling.free_slip);
     writer.put("window", scene.coupling.window);

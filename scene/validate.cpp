@@ -73,8 +73,8 @@ class Validator {
       const sph::Body& body = fluid_.bodies[i];
       parts_.push_back({"bodies", body.name, &body.shape, body.spacing, draft_.body_nodes[i], draft_.body_shape_good[i]});
     }
-    for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
-      const sph::SolidBody& solid = fluid_.solids[i];
+    for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
+      const solid::Body& solid = scene_.solids.bodies[i];
       parts_.push_back({"solids", solid.name, &solid.shape, solid.spacing, draft_.solid_nodes[i], draft_.solid_shape_good[i]});
     }
   }
@@ -97,10 +97,10 @@ class Validator {
 
   void names() {
     unique("bodies", fluid_.bodies, draft_.body_nodes);
-    unique("solids", fluid_.solids, draft_.solid_nodes);
-    for (std::size_t i = 0; i < fluid_.solids.size(); ++i)
+    unique("solids", scene_.solids.bodies, draft_.solid_nodes);
+    for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i)
       for (const sph::Body& body : fluid_.bodies)
-        if (body.name == fluid_.solids[i].name)
+        if (body.name == scene_.solids.bodies[i].name)
           complain(*draft_.solid_nodes[i], "name", "solids: the name '" + body.name + "' is that of a body; choose another one");
     unique("walls", fluid_.walls, draft_.wall_nodes);
     unique("probes", scene_.probes, draft_.probe_nodes);
@@ -338,9 +338,9 @@ class Validator {
 
   void solids() {
     const bool fluid = !draft_.body_nodes.empty();
-    for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
+    for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
       if (!usable_[fluid_.bodies.size() + i]) continue;
-      const sph::SolidBody& solid = fluid_.solids[i];
+      const solid::Body& solid = scene_.solids.bodies[i];
       const Node& node = *draft_.solid_nodes[i];
       const std::string path = "solids." + solid.name;
       halved(path, node, solid.shape.base);
@@ -371,17 +371,17 @@ class Validator {
 
   /// No solid may start beyond a rigid plane.
   void planes() {
-    for (std::size_t k = 0; k < fluid_.planes.size(); ++k) {
-      const RigidPlane& plane = fluid_.planes[k];
+    for (std::size_t k = 0; k < scene_.solids.planes.size(); ++k) {
+      const RigidPlane& plane = scene_.solids.planes[k];
       if (plane.axis >= dimension_) continue;
-      for (std::size_t i = 0; i < fluid_.solids.size(); ++i) {
+      for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
         if (!usable_[fluid_.bodies.size() + i]) continue;
-        const Bounds extent = common(kept_, bounds(fluid_.solids[i].shape, dimension_));
+        const Bounds extent = common(kept_, bounds(scene_.solids.bodies[i].shape, dimension_));
         const double beyond =
             plane.body_above ? plane.position - extent.low[plane.axis] : extent.high[plane.axis] - plane.position;
         if (beyond > tolerance())
           complain(*draft_.plane_nodes[k], "position",
-                   "planes." + std::to_string(k) + ": solids." + fluid_.solids[i].name + " starts " + rounded(beyond) +
+                   "planes." + std::to_string(k) + ": solids." + scene_.solids.bodies[i].name + " starts " + rounded(beyond) +
                        " m beyond the plane " + "xyz"[plane.axis] + " = " + rounded(plane.position) + ", whose free side is " +
                        (plane.body_above ? "above" : "below") + "; move one of them");
       }
@@ -402,7 +402,7 @@ class Validator {
 
   double distance_to_solids(const Vec3& x) const {
     double away = 1e300;
-    for (const sph::SolidBody& solid : fluid_.solids) away = std::min(away, signed_distance(solid.shape, x, dimension_));
+    for (const solid::Body& solid : scene_.solids.bodies) away = std::min(away, signed_distance(solid.shape, x, dimension_));
     return away;
   }
 
@@ -420,7 +420,8 @@ class Validator {
                  path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
       } else if (!draft_.solid_nodes.empty() && all_usable()) {
         double thinnest = 1e300;
-        for (const sph::SolidBody& solid : fluid_.solids) thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
+        for (const solid::Body& solid : scene_.solids.bodies)
+          thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
         if (const double away = distance_to_solids(probe.point); away > 0.1 * thinnest)
           complain(node, "point", path + ".point is " + rounded(away) + " m away from every solid; move it onto one");
       } else if (solid_ && dimension_ == 3) {
@@ -440,7 +441,7 @@ class Validator {
     const bool gmsh = scene_.structure && !solid_;
     if (probe.kind == Probe::Kind::wall) {
       const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
-      if (fluid_.walls.empty() && !wet && !gmsh && fluid_.solids.empty()) {
+      if (fluid_.walls.empty() && !wet && !gmsh && scene_.solids.bodies.empty()) {
         complain(
             node, "kind",
             path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");

@@ -15,6 +15,18 @@ Bounds kept_window(const Settings& settings, Bounds box) {
   return box;
 }
 
+}  // namespace
+
+double lattice_factor(KernelName kernel, double eta, int dimension) {
+  return with_kernel(kernel, [&](auto k) { return lattice_factor<decltype(k)>(eta, dimension); });
+}
+
+double kernel_support(KernelName kernel) {
+  return with_kernel(kernel, [](auto k) { return k.support; });
+}
+
+double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }
+
 BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
   const Bounds box = bounds(shape, settings.dimension);
   BodyParticles out;
@@ -32,30 +44,10 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
   return out;
 }
 
-}  // namespace
-
-double lattice_factor(KernelName kernel, double eta, int dimension) {
-  return with_kernel(kernel, [&](auto k) { return lattice_factor<decltype(k)>(eta, dimension); });
-}
-
-double kernel_support(KernelName kernel) {
-  return with_kernel(kernel, [](auto k) { return k.support; });
-}
-
-double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }
-
 std::vector<BodyParticles> fill_bodies(const Settings& settings) {
   std::vector<BodyParticles> result;
   for (const Body& body : settings.bodies)
     result.push_back(fill(body_grid(settings, body), settings, body.shape, "body '" + body.name + "'"));
-  return result;
-}
-
-std::vector<BodyParticles> fill_solids(const Settings& settings) {
-  std::vector<BodyParticles> result;
-  for (const SolidBody& body : settings.solids)
-    result.push_back(fill(solid_grid(settings, body, body.spacing.value_or(settings.lattice.spacing)), settings, body.shape,
-                          "solid '" + body.name + "'"));
   return result;
 }
 

@@ -1,8 +1,10 @@
 // The start: shapes filled with particles, and the lengths that go with a lattice.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "sph_fluid/lattice_grid.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::sph {
@@ -12,9 +14,12 @@ struct BodyParticles {
   std::vector<double> volume;  ///< [m^d]; their sum is the exact volume of the kept part of the body
 };
 
+/// The points of a grid inside a shape, on the kept side of the symmetry planes. Throws std::invalid_argument, as `who`, where
+/// there are none.
+BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who);
+
 /// Particles of every body, in the scene's order. Throws std::invalid_argument where a body gets none.
 std::vector<BodyParticles> fill_bodies(const Settings& settings);
-std::vector<BodyParticles> fill_solids(const Settings& settings);
 
 /// The smoothing length of the scene's lattice [m], and the reach of its kernel [m].
 double smoothing_length(const Settings& settings, double spacing);

@@ -29,30 +29,12 @@ void fit_axis(double low, double high, double dx, bool mirrored, double& origin,
   }
 }
 
-/// Particles on a ring, symmetric in quadrants.
-long ring_count(double radius, double width) { return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width)); }
-
 const Primitive& shape_to_fit(const Settings& settings) {
   for (const Body& body : settings.bodies)
     if (body.name == settings.lattice.fit) return body.shape.base;
   for (const Wall& wall : settings.walls)
     if (wall.name == settings.lattice.fit) return wall.container;
   throw std::invalid_argument("resolution.fit names '" + settings.lattice.fit + "', which is neither a body nor a wall");
-}
-
-Grid cartesian(const Vec3& origin, double dx, int dimension) {
-  Grid grid;
-  grid.dimension = dimension;
-  grid.origin = origin;
-  grid.step = Vec3::Constant(dx);
-  return grid;
-}
-
-void fit_grid(Grid& grid, const Primitive& shape, double dx, const Symmetry& symmetry) {
-  const Bounds box = bounds(shape, grid.dimension);
-  for (int a = 0; a < grid.dimension; ++a)
-    if (box.low[a] > -1e299 && box.high[a] < 1e299)
-      fit_axis(box.low[a], box.high[a], dx, symmetry.axis[a], grid.origin[a], grid.step[a]);
 }
 
 /// A box, in the axes of a turned lattice, that holds the given one.
@@ -69,6 +51,23 @@ Bounds turned_back(const Grid& grid, const Bounds& box) {
 }
 
 }  // namespace
+
+long ring_count(double radius, double width) { return 4 * std::max(1l, std::lround(0.5 * std::numbers::pi * radius / width)); }
+
+Grid cartesian(const Vec3& origin, double dx, int dimension) {
+  Grid grid;
+  grid.dimension = dimension;
+  grid.origin = origin;
+  grid.step = Vec3::Constant(dx);
+  return grid;
+}
+
+void fit_grid(Grid& grid, const Primitive& shape, double dx, const Symmetry& symmetry) {
+  const Bounds box = bounds(shape, grid.dimension);
+  for (int a = 0; a < grid.dimension; ++a)
+    if (box.low[a] > -1e299 && box.high[a] < 1e299)
+      fit_axis(box.low[a], box.high[a], dx, symmetry.axis[a], grid.origin[a], grid.step[a]);
+}
 
 Grid scene_grid(const Settings& settings) {
   const Lattice& lattice = settings.lattice;
@@ -105,30 +104,6 @@ Grid body_grid(const Settings& settings, const Body& body) {
   if (!body.spacing) return scene_grid(settings);
   Grid grid = cartesian(settings.lattice.origin, *body.spacing, settings.dimension);
   fit_grid(grid, body.shape.base, *body.spacing, settings.symmetry);
-  return grid;
-}
-
-Grid solid_grid(const Settings& settings, const SolidBody& body, double dx) {
-  Grid grid = cartesian(settings.lattice.origin, dx, settings.dimension);
-  fit_grid(grid, body.shape.base, dx, settings.symmetry);
-  if (body.lattice != LatticeType::rings) return grid;
-  const auto about = [&](int axis, const Vec3& center, double inner, double outer) {
-    if (settings.dimension < 2 || (settings.dimension == 2 && axis != 2))
-      throw std::invalid_argument("solid '" + body.name +
-                                  "': lattice = \"rings\" needs three dimensions, or two with the axis along z");
-    grid.rings = true;
-    grid.axis = axis;
-    for (int a = 0; a < 3; ++a)
-      if (a != axis) grid.origin[a] = center[a];
-    grid.ring_start = inner;
-    grid.ring_width = (outer - inner) / std::max(1.0, std::round((outer - inner) / dx));
-    if (inner > 0) grid.around = ring_count(0.5 * (inner + outer), dx);
-  };
-  if (const auto* cylinder = std::get_if<Cylinder>(&body.shape.base))
-    about(cylinder->axis, cylinder->center, 0.0, cylinder->radius);
-  else if (const auto* tube = std::get_if<TubeShape>(&body.shape.base)) about(tube->axis, tube->center, tube->inner, tube->outer);
-  else
-    throw std::invalid_argument("solid '" + body.name + "': lattice = \"rings\" needs a cylinder or a tube; use \"cartesian\"");
   return grid;
 }
 

@@ -23,13 +23,16 @@ struct Grid {
 /// Is given a point [m] and its cell's volume [m^d].
 using Visit = std::function<void(const Vec3& x, double volume)>;
 
-/// The scene's lattice. Throws std::invalid_argument where it cannot be, as the next two.
+/// Cells with an edge of dx [m] from a corner at `origin`; then fitted: each extent of the shape is cut into whole steps.
+Grid cartesian(const Vec3& origin, double dx, int dimension);
+void fit_grid(Grid& grid, const Primitive& shape, double dx, const Symmetry& symmetry);
+/// Particles on a ring, symmetric in quadrants.
+long ring_count(double radius, double width);
+
+/// The scene's lattice. Throws std::invalid_argument where it cannot be, as the next.
 Grid scene_grid(const Settings& settings);
 /// That of the scene, or a body's own.
 Grid body_grid(const Settings& settings, const Body& body);
-/// A solid's own. The rings of a tube all have as many particles: its wall is a grid, bent.
-Grid solid_grid(const Settings& settings, const SolidBody& body, double dx);
-
 /// Visits every lattice point in `box` (or just outside) on the kept side of the symmetry planes.
 void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& visit);
 

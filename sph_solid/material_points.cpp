@@ -8,7 +8,9 @@
 #include "sph_fluid/pairs/kernels.hpp"
 #include "sph_solid/solids_implementation.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 namespace {
 
 using undex::mirrored;  // of vectors; of symmetric tensors:
@@ -38,16 +40,16 @@ std::pair<std::uint32_t, double> nearest_particle(const SolidParticles& particle
 }
 
 /// The point of the bodies' surfaces nearest to x at the start, if one lies within `reach` [m].
-std::optional<Vec3> nearest_surface(const Settings& settings, const Vec3& x, double reach) {
+std::optional<Vec3> nearest_surface(const Settings& settings, int dimension, const Vec3& x, double reach) {
   std::optional<Vec3> nearest;
   double best = reach;
-  for (const SolidBody& solid : settings.solids) {
-    const auto distance = [&](const Vec3& at) { return signed_distance(solid.shape, at, settings.dimension); };
+  for (const Body& solid : settings.bodies) {
+    const auto distance = [&](const Vec3& at) { return signed_distance(solid.shape, at, dimension); };
     const double away = distance(x);
     if (std::abs(away) > best) continue;
     best = std::abs(away);
     Vec3 outward = Vec3::Zero();
-    for (int a = 0; a < settings.dimension; ++a) {
+    for (int a = 0; a < dimension; ++a) {
       const Vec3 step = 1e-3 * reach * Vec3::Unit(a);
       outward[a] = distance(x + step) - distance(x - step);
     }
@@ -70,9 +72,9 @@ BodyPoint Solids::Implementation::locate(const Vec3& place) const {
     };
     point.motion.clear();
     Eigen::Matrix4d moment = Eigen::Matrix4d::Zero();
-    for (int a = settings.dimension; a < 3; ++a) moment(a + 1, a + 1) = 1.0;
+    for (int a = around.dimension; a < 3; ++a) moment(a + 1, a + 1) = 1.0;
     for (unsigned image = 0; image < 8; ++image) {
-      if (!within_reach(image, place, settings.symmetry.axis, WendlandC2::support * h)) continue;
+      if (!within_reach(image, place, around.symmetry.axis, WendlandC2::support * h)) continue;
       for (std::uint32_t i = group.begin; i < group.end; ++i) {
         BodyPoint::Share share{i, 0.0, image};
         const Vec3 d = offset(share);
@@ -113,9 +115,9 @@ MaterialPoint Solids::read(const BodyPoint& point) const { return self_->read(po
 
 std::function<Vec3()> Solids::follow_surface(const Vec3& reference_position, double reach) const {
   if (auto on_wet_face = DeformableBody::follow_surface(reference_position, reach)) return on_wet_face;
-  const std::optional<Vec3> foot = nearest_surface(self_->settings, reference_position, reach);
+  const std::optional<Vec3> foot = nearest_surface(self_->settings, self_->around.dimension, reference_position, reach);
   if (!foot) return {};
   return [this, point = locate(*foot)] { return read(point).position; };
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace undex::sph {
+namespace undex::solid {
 namespace {
 
 struct Named {
@@ -55,7 +55,7 @@ std::vector<std::string> solid_faces(const Primitive& shape, int dimension) {
   return names;
 }
 
-Face nearest_face(const SolidBody& body, const Vec3& x, int dimension) {
+Face nearest_face(const Body& body, const Vec3& x, int dimension) {
   Face nearest{1e300, Vec3::Zero()};
   for (const Named& named : faces_at(body.shape.base, x, dimension)) {
     const bool wet = body.wet.empty() || std::find(body.wet.begin(), body.wet.end(), named.name) != body.wet.end();
@@ -64,4 +64,4 @@ Face nearest_face(const SolidBody& body, const Vec3& x, int dimension) {
   return nearest;
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

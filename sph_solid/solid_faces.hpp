@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 /// Names of the faces of a shape: box "x_low" ... "z_high"; cylinder "side", "low", "high"; tube "inner", "outer", "low",
 /// "high"; sphere "side".
@@ -19,6 +19,6 @@ struct Face {
 
 /// The nearest of the body's wet faces (of all, where it names none). Faces are taken as endless: a point near an edge lies
 /// behind both.
-Face nearest_face(const SolidBody& body, const Vec3& x, int dimension);
+Face nearest_face(const Body& body, const Vec3& x, int dimension);
 
-}  // namespace undex::sph
+}  // namespace undex::solid

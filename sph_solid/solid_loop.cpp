@@ -2,11 +2,11 @@
 #include "sph_fluid/pairs/cluster_work.hpp"
 #include "sph_solid/solid_schemes.hpp"
 
-namespace undex::sph::UNDEX_LEVEL {
+namespace undex::solid::UNDEX_LEVEL {
 
 void solid_deformation(const PairInput& in, const PairOutput& out) { pass<WendlandC2, VelocityGradient, double>(in, out); }
 void solid_forces(const PairInput& in, const PairOutput& out) { pass<WendlandC2, SolidForces, double>(in, out); }
 void contact_overlap(const PairInput& in, const PairOutput& out) { pass<WendlandC2, ContactOverlap, double>(in, out); }
 void contact_forces(const PairInput& in, const PairOutput& out) { pass<WendlandC2, ContactForces, double>(in, out); }
 
-}  // namespace undex::sph::UNDEX_LEVEL
+}  // namespace undex::solid::UNDEX_LEVEL

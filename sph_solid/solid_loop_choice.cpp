@@ -1,7 +1,9 @@
 #include "sph_fluid/pairs/cpu_level.hpp"
 #include "sph_solid/solid_loops.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 
 #define UNDEX_DECLARE_LEVEL(level)                             \
   namespace level {                                            \
@@ -23,4 +25,4 @@ SolidLoops solid_loops() {
   return {&v2::solid_deformation, &v2::solid_forces, &v2::contact_overlap, &v2::contact_forces};
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -3,14 +3,14 @@
 
 #include "sph_fluid/pairs/pair_data.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 struct SolidLoops {
-  void (*deformation)(const PairInput&, const PairOutput&);
-  void (*forces)(const PairInput&, const PairOutput&);
-  void (*contact_overlap)(const PairInput&, const PairOutput&);
-  void (*contact_forces)(const PairInput&, const PairOutput&);
+  void (*deformation)(const sph::PairInput&, const sph::PairOutput&);
+  void (*forces)(const sph::PairInput&, const sph::PairOutput&);
+  void (*contact_overlap)(const sph::PairInput&, const sph::PairOutput&);
+  void (*contact_forces)(const sph::PairInput&, const sph::PairOutput&);
 };
 SolidLoops solid_loops();
 
-}  // namespace undex::sph
+}  // namespace undex::solid

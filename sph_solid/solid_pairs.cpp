@@ -9,7 +9,9 @@
 #include "core/errors.hpp"
 #include "sph_fluid/pairs/kernels.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 namespace {
 
 /// Bodies feel each other when their outer particles are a spacing and a half apart, half a spacing before they touch.
@@ -20,8 +22,8 @@ constexpr double contact_damping = 0.3;
 
 }  // namespace
 
-SolidPairs::SolidPairs(const Settings& settings, std::vector<Range> ranges)
-    : settings_(settings), ranges_(std::move(ranges)), cells_(ranges_.size()) {
+SolidPairs::SolidPairs(const Settings& settings, const sph::Settings& around, std::vector<Range> ranges)
+    : settings_(settings), around_(around), ranges_(std::move(ranges)), cells_(ranges_.size()) {
   const std::uint32_t n = ranges_.back().end;
   for (const Range& range : ranges_) updated_ = updated_ || range.updated;
   particle_.resize(n);
@@ -30,8 +32,8 @@ SolidPairs::SolidPairs(const Settings& settings, std::vector<Range> ranges)
   solid_.resize(n);
   if (updated_) deformation_.resize(n);
   sums_.resize(n);
-  if (updated_ && !settings.bodies.empty()) inverse_deformation_.assign(n, Mat3::Identity());
-  scratch_.resize(std::max(omp_get_max_threads(), settings.numerics.threads));
+  if (updated_ && !around.bodies.empty()) inverse_deformation_.assign(n, Mat3::Identity());
+  scratch_.resize(std::max(omp_get_max_threads(), around.numerics.threads));
 }
 
 SolidPairs::~SolidPairs() {
@@ -120,7 +122,7 @@ void SolidPairs::pack(const SolidParticles& p) {
 
 PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   PairInput in{};
-  in.dimension = settings_.dimension;
+  in.dimension = around_.dimension;
   in.kernel_scale = 1.0;
   in.x = x_.data();
   in.y = y_.data();
@@ -128,14 +130,14 @@ PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   in.fluid = rows_.data();
   in.second = solid_.data();
   in.deformation = deformation_.data();
-  in.artificial_stress = settings_.solid_numerics.artificial_stress;
+  in.artificial_stress = settings_.numerics.artificial_stress;
   in.spacing = ranges_[0].spacing;
   in.groups = views.data();
   in.group_count = int(views.size());
   in.contact_damping = contact_damping;
-  for (int a = 0; a < 3; ++a) in.mirror[a] = settings_.symmetry.axis[a];
-  in.alpha = settings_.solid_numerics.alpha;
-  in.beta = settings_.solid_numerics.beta;
+  for (int a = 0; a < 3; ++a) in.mirror[a] = around_.symmetry.axis[a];
+  in.alpha = settings_.numerics.alpha;
+  in.beta = settings_.numerics.beta;
   blocks_.describe(in);
   in.scratch = scratch_.data();
   return in;
@@ -147,8 +149,7 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
   constexpr std::uint32_t batch = materials::points_at_once;
   for (const Range& range : ranges_) {
     if (!range.updated) continue;
-    const BulkViscosity viscosity{settings_.solid_numerics.linear_viscosity, settings_.solid_numerics.quadratic_viscosity,
-                                  range.spacing};
+    const BulkViscosity viscosity{settings_.numerics.linear_viscosity, settings_.numerics.quadratic_viscosity, range.spacing};
 #pragma omp parallel for schedule(static)
     for (std::uint32_t first = range.begin; first < range.end; first += batch) {
       const std::uint32_t last = std::min(range.end, first + batch);
@@ -208,7 +209,7 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
 }
 
 void SolidPairs::hand_back(SolidParticles& p) const {
-  const SolidNumerics& numerics = settings_.solid_numerics;
+  const Numerics& numerics = settings_.numerics;
   for (const Range& range : ranges_)
 #pragma omp parallel for schedule(static)
     for (std::uint32_t k = range.begin; k < range.end; ++k) {
@@ -231,4 +232,4 @@ std::size_t SolidPairs::memory_bytes() const {
   return bytes;
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -9,10 +9,10 @@
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/pairs/pair_data.hpp"
 #include "sph_solid/solid_loops.hpp"
-#include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 #include "sph_solid/solid_particles.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 class SolidPairs {
  public:
@@ -21,9 +21,9 @@ class SolidPairs {
     std::uint32_t begin, end;
     double spacing, h;  ///< [m]
     bool updated;       ///< does it work with the pairs of the present?
-    const SolidBody* body;
+    const Body* body;
   };
-  SolidPairs(const Settings& settings, std::vector<Range> ranges);
+  SolidPairs(const Settings& settings, const sph::Settings& around, std::vector<Range> ranges);
   ~SolidPairs();
   SolidPairs(const SolidPairs&) = delete;
   SolidPairs& operator=(const SolidPairs&) = delete;
@@ -38,30 +38,31 @@ class SolidPairs {
 
  private:
   void pack(const SolidParticles& particles);
-  PairInput input(const std::vector<GroupView>& views);
-  void run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in);
+  sph::PairInput input(const std::vector<sph::GroupView>& views);
+  void run(void (*pass)(const sph::PairInput&, const sph::PairOutput&), const sph::PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
   void find_contact(SolidParticles& particles, bool started);
   void hand_back(SolidParticles& particles) const;
 
   const Settings& settings_;
+  const sph::Settings& around_;
   SolidLoops loops_ = solid_loops();
   std::vector<Range> ranges_;
-  std::vector<CellList> cells_;
-  std::vector<GroupView> views_;          ///< with the h of the bodies' own pairs
-  std::vector<GroupView> contact_views_;  ///< and of contact
-  BlockOrder blocks_;
+  std::vector<sph::CellList> cells_;
+  std::vector<sph::GroupView> views_;          ///< with the h of the bodies' own pairs
+  std::vector<sph::GroupView> contact_views_;  ///< and of contact
+  sph::BlockOrder blocks_;
   bool updated_ = false;
   std::vector<std::uint32_t> particle_;  ///< of each row
   std::vector<double> x_, y_, z_;
-  std::vector<FluidRow> rows_;
-  std::vector<SolidRow> solid_;
-  std::vector<DeformationRow> deformation_;
-  std::vector<SumRow> sums_;
+  std::vector<sph::FluidRow> rows_;
+  std::vector<sph::SolidRow> solid_;
+  std::vector<sph::DeformationRow> deformation_;
+  std::vector<sph::SumRow> sums_;
   std::vector<Mat3> inverse_deformation_;  ///< empty where there is no water
   std::vector<long long> interactions_;
-  std::vector<Scratch> scratch_;
+  std::vector<sph::Scratch> scratch_;
 };
 
-}  // namespace undex::sph
+}  // namespace undex::solid

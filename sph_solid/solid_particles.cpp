@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace undex::sph {
+namespace undex::solid {
 
 void SolidParticles::resize(std::size_t n) {
   for (auto* field : {&start, &x, &v, &force}) field->assign(n, Vec3::Zero());
@@ -86,4 +86,4 @@ void update_stress(const materials::Solid& solid, const BulkViscosity& viscosity
   }
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -8,7 +8,7 @@
 #include "core/vector.hpp"
 #include "materials/stress_update.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 struct SolidParticles {
   std::vector<Vec3> start;                      ///< place at the start [m]
@@ -57,4 +57,4 @@ struct BulkViscosity {
 void update_stress(const materials::Solid& solid, const BulkViscosity& viscosity, Deformation& step, double dt,
                    SolidParticles& particles);
 
-}  // namespace undex::sph
+}  // namespace undex::solid

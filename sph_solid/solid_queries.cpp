@@ -12,7 +12,9 @@
 #include "sph_solid/solids_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 namespace {
 
 /// Sums of vectors start from zero, which Eigen's do not.
@@ -30,7 +32,6 @@ struct Sum3 {
 
 }  // namespace
 
-const Settings& Solids::settings() const { return self_->settings; }
 std::size_t Solids::particle_count() const { return self_->particles.size(); }
 double Solids::time() const { return self_->time; }
 long Solids::steps() const { return self_->steps; }
@@ -67,18 +68,17 @@ std::string Solids::stable_step_owner() const {
 
 std::string Solids::description() const {
   static constexpr const char* unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
-  const Settings& settings = self_->settings;
+  const sph::Settings& around = self_->around;
   Bounds kept{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
   for (int a = 0; a < 3; ++a)
-    if (settings.symmetry.axis[a]) kept.low[a] = 0;
+    if (around.symmetry.axis[a]) kept.low[a] = 0;
   std::string text = "solids in particles\n";
   char line[512];
   for (const SolidGroup& group : self_->groups) {
-    const SolidBody& solid = *group.body;
+    const Body& solid = *group.body;
     std::snprintf(line, sizeof line, "  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n",
-                  solid.name.c_str(), std::size_t(group.end - group.begin), volume(solid.shape, kept, settings.dimension),
-                  unit[settings.dimension - 1], solid.material.name.c_str(), group.spacing,
-                  group.lagrangian ? "total" : "updated");
+                  solid.name.c_str(), std::size_t(group.end - group.begin), volume(solid.shape, kept, around.dimension),
+                  unit[around.dimension - 1], solid.material.name.c_str(), group.spacing, group.lagrangian ? "total" : "updated");
     text += line;
   }
   std::snprintf(line, sizeof line, "  %.6g kg, stable step %.4g us (%s)\n", ledger().mass, stable_step() * 1e6,
@@ -105,7 +105,7 @@ BodyLedger Solids::ledger() const {
     });
   }
   ledger.external = self_->external_work;
-  const Vec3& g = self_->settings.gravity;
+  const Vec3& g = self_->around.gravity;
   ledger.gravity = sum([&](std::uint32_t i) { return p.mass[i] * g.dot(p.x[i] - p.start[i]); });
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;
   ledger.momentum = blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.v[i]; }).value;
@@ -173,10 +173,10 @@ BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
   return snapshot;
 }
 
-LinedWall Solids::wet_wall(bool free_slip) const {
+sph::LinedWall Solids::wet_wall(bool free_slip) const {
   const Implementation& s = *self_;
   const std::size_t n = s.wet_particles.size();
-  LinedWall wall;
+  sph::LinedWall wall;
   wall.free_slip = free_slip;
   for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(n, Vec3::Zero());
   wall.volume.resize(n);
@@ -184,7 +184,7 @@ LinedWall Solids::wet_wall(bool free_slip) const {
   return wall;
 }
 
-void Solids::move_wall(LinedWall& wall, double ahead) const {
+void Solids::move_wall(sph::LinedWall& wall, double ahead) const {
   const Implementation& s = *self_;
   const SolidParticles& p = s.particles;
 #pragma omp parallel for schedule(static)
@@ -200,4 +200,4 @@ void Solids::move_wall(LinedWall& wall, double ahead) const {
   }
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

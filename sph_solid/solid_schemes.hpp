@@ -17,7 +17,10 @@
 #include "sph_fluid/pairs/fluid_state.hpp"
 #include "sph_fluid/pairs/moment_inverse.hpp"
 
-namespace undex::sph::UNDEX_LEVEL {
+namespace undex::solid::UNDEX_LEVEL {
+
+using namespace sph;
+using namespace sph::UNDEX_LEVEL;
 
 /// Solids meet no rigid wall's particles.
 template <class V>
@@ -226,4 +229,4 @@ struct ContactForces {
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 };
 
-}  // namespace undex::sph::UNDEX_LEVEL
+}  // namespace undex::solid::UNDEX_LEVEL

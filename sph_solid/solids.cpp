@@ -12,11 +12,14 @@
 
 #include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
+#include "sph_solid/solid_lattice.hpp"
 #include "sph_solid/solid_faces.hpp"
 #include "sph_solid/solids_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 namespace {
 
 /// Axis and middle of a shape with a circular section, and its radius.
@@ -26,7 +29,7 @@ struct Round {
   double radius;
 };
 
-Round round_of(const SolidBody& body) {
+Round round_of(const Body& body) {
   if (const auto* cylinder = std::get_if<Cylinder>(&body.shape.base)) return {cylinder->axis, cylinder->center, cylinder->radius};
   if (const auto* disc = std::get_if<Sphere>(&body.shape.base)) return {2, disc->center, disc->radius};
   throw std::invalid_argument("solid '" + body.name + "': residual_stress needs a cylinder (or a disc, in two dimensions)");
@@ -42,9 +45,9 @@ Vec3 middle_of(const Shape& shape, int dimension) {
 
 }  // namespace
 
-Solids::Implementation::Implementation(const Settings& given) : settings(given) {
-  if (settings.numerics.threads > 0) omp_set_num_threads(settings.numerics.threads);
-  time = settings.start_time;
+Solids::Implementation::Implementation(const Settings& given, const sph::Settings& of_all) : around(of_all), settings(given) {
+  if (around.numerics.threads > 0) omp_set_num_threads(around.numerics.threads);
+  time = around.start_time;
   fill();
   find_wet_particles();
   find_forces(0.0);
@@ -53,7 +56,7 @@ Solids::Implementation::Implementation(const Settings& given) : settings(given) 
 }
 
 void Solids::Implementation::fill() {
-  const std::vector<BodyParticles> bodies = fill_solids(settings);
+  const std::vector<BodyParticles> bodies = fill_solids(settings, around);
   std::size_t n = 0;
   for (const BodyParticles& body : bodies) n += body.position.size();
   particles.resize(n);
@@ -62,11 +65,11 @@ void Solids::Implementation::fill() {
   std::uint32_t at = 0;
   bool updated = false;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const SolidBody& body = settings.solids[b];
+    const Body& body = settings.bodies[b];
     const materials::Solid& solid = body.material;
-    SolidGroup group{
-        &body, at, at + std::uint32_t(bodies[b].position.size()), body.spacing.value_or(settings.lattice.spacing), 0.0, nullptr};
-    group.h = settings.solid_numerics.eta * group.spacing;
+    SolidGroup group{&body, at,     at + std::uint32_t(bodies[b].position.size()), body.spacing.value_or(around.lattice.spacing),
+                     0.0,   nullptr};
+    group.h = settings.numerics.eta * group.spacing;
     for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
       particles.start[at] = particles.x[at] = bodies[b].position[k];
       particles.rho[at] = solid.rho0;
@@ -77,7 +80,7 @@ void Solids::Implementation::fill() {
     start_motion(group);
     if (body.residual_stress != 0.0) start_stress(group);
     if (body.description == Description::total_lagrangian)
-      group.lagrangian = std::make_unique<TotalLagrangian>(settings, body, group.begin, group.end, group.h, group.spacing,
+      group.lagrangian = std::make_unique<TotalLagrangian>(settings, around, body, group.begin, group.end, group.h, group.spacing,
                                                            bodies[b].volume, particles);
     else updated = true;
     groups.push_back(std::move(group));
@@ -86,12 +89,12 @@ void Solids::Implementation::fill() {
     std::vector<SolidPairs::Range> ranges;
     for (const SolidGroup& group : groups)
       ranges.push_back({group.begin, group.end, group.spacing, group.h, group.lagrangian == nullptr, group.body});
-    pairs = std::make_unique<SolidPairs>(settings, std::move(ranges));
+    pairs = std::make_unique<SolidPairs>(settings, around, std::move(ranges));
   }
 }
 
 void Solids::Implementation::start_motion(const SolidGroup& group) {
-  const Vec3 middle = middle_of(group.body->shape, settings.dimension);
+  const Vec3 middle = middle_of(group.body->shape, around.dimension);
   for (std::uint32_t i = group.begin; i < group.end; ++i)
     particles.v[i] = group.body->velocity + group.body->spin.cross(particles.x[i] - middle);
 }
@@ -109,7 +112,7 @@ void Solids::Implementation::start_stress(const SolidGroup& group) {
     Mat3 sigma = S * (1.0 - 3.0 * square) * Mat3::Identity() + 2.0 * S * square * e * e.transpose();
     // Plane strain along the axis; a free cylinder of finite length is not in equilibrium near its ends.
     for (int a = 0; a < 3; ++a) sigma(body.axis, a) = sigma(a, body.axis) = 0.0;
-    sigma(body.axis, body.axis) = settings.dimension == 2 ? poisson * sigma.trace() : 0.0;
+    sigma(body.axis, body.axis) = around.dimension == 2 ? poisson * sigma.trace() : 0.0;
     const double pressure = -sigma.trace() / 3.0;
     const Mat3 s = sigma + pressure * Mat3::Identity();
     const double component[6] = {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(2, 0), s(0, 1)};
@@ -125,11 +128,11 @@ void Solids::Implementation::start_stress(const SolidGroup& group) {
 }
 
 void Solids::Implementation::find_wet_particles() {
-  if (settings.bodies.empty()) return;
-  const double reach = kernel_support(settings.numerics.kernel) * smoothing_length(settings, settings.lattice.spacing);
+  if (around.bodies.empty()) return;
+  const double reach = kernel_support(around.numerics.kernel) * smoothing_length(around, around.lattice.spacing);
   for (const SolidGroup& group : groups)
     for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      const Face face = nearest_face(*group.body, particles.start[i], settings.dimension);
+      const Face face = nearest_face(*group.body, particles.start[i], around.dimension);
       if (face.depth > reach) continue;
       wet_particles.push_back(i);
       wet_normal.push_back(-face.outward);
@@ -222,7 +225,7 @@ void Solids::Implementation::find_forces(double dt) {
 void Solids::Implementation::find_acceleration() {
 #pragma omp parallel for schedule(static)
   for (std::uint32_t i = 0; i < particles.size(); ++i)
-    acceleration[i] = (particles.force[i] + impulse_force[i]) / particles.mass[i] + settings.gravity;
+    acceleration[i] = (particles.force[i] + impulse_force[i]) / particles.mass[i] + around.gravity;
 }
 
 double Solids::Implementation::held_back(double dt) const {
@@ -249,12 +252,12 @@ std::string Solids::Implementation::description_of(std::uint32_t i, const char* 
   const Vec3 &x = particles.x[i], &start = particles.start[i];
   text << "solid '" << group_of(i).body->name << "', step " << steps << ", time " << time << " s: particle " << i << ", from ("
        << start[0] << ", " << start[1] << ", " << start[2] << ") m, now at (" << x[0] << ", " << x[1] << ", " << x[2] << ") m, "
-       << what << "; the step was " << dt << " s; a smaller solid_scheme.courant (" << settings.solid_numerics.courant
+       << what << "; the step was " << dt << " s; a smaller solid_scheme.courant (" << settings.numerics.courant
        << "), or description = \"updated_lagrangian\" for a body that is torn, may help";
   return text.str();
 }
 
-double Solids::Implementation::stable_step() const { return settings.solid_numerics.courant / particles.rate[fastest()]; }
+double Solids::Implementation::stable_step() const { return settings.numerics.courant / particles.rate[fastest()]; }
 
 void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_impulse) {
   if (!wet_impulse.empty() && wet_impulse.size() != surface.nodes.size())
@@ -266,7 +269,7 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
     text << "solids: cannot advance from " << time << " s to " << t_end << " s; give a later time";
     throw std::invalid_argument(text.str());
   }
-  if (settings.numerics.threads > 0) omp_set_num_threads(settings.numerics.threads);
+  if (around.numerics.threads > 0) omp_set_num_threads(around.numerics.threads);
   spread_impulse(wet_impulse, interval);
   find_acceleration();
   for (;;) {
@@ -281,7 +284,8 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
 
 // ---- The public face ------------------------------------------------------------------------------------------------
 
-Solids::Solids(const Settings& settings) : self_(std::make_unique<Implementation>(settings)) {}
+Solids::Solids(const Settings& settings, const sph::Settings& around)
+    : self_(std::make_unique<Implementation>(settings, around)) {}
 Solids::~Solids() = default;
 Solids::Solids(Solids&&) noexcept = default;
 Solids& Solids::operator=(Solids&&) noexcept = default;
@@ -298,4 +302,4 @@ void Solids::kick(std::span<const Vec3> impulse) {
   }
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -13,19 +13,19 @@
 
 #include "core/deformable_body.hpp"
 #include "sph_fluid/water/fluid.hpp"
-#include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 class Solids : public DeformableBody {
  public:
-  /// Lays out the particles of settings.solids. Throws std::invalid_argument naming the body and the remedy.
-  explicit Solids(const Settings& settings);
+  /// Lays out the bodies' particles. `around` says what they share with the water, or with each other: dimension, gravity,
+  /// lattice, symmetry planes, threads and start. Throws std::invalid_argument naming the body and the remedy.
+  Solids(const Settings& settings, const sph::Settings& around);
   ~Solids() override;
   Solids(Solids&&) noexcept;
   Solids& operator=(Solids&&) noexcept;
 
-  const Settings& settings() const;
   std::size_t particle_count() const;
   std::vector<std::size_t> particles_by_body() const;  ///< in the scene's order, as the particles themselves are
 
@@ -77,8 +77,8 @@ class Solids : public DeformableBody {
   /// The particles that water may meet: indices, and a moving wall made of them (`ahead` [s] from now at the present
   /// acceleration).
   const std::vector<std::uint32_t>& wet_particles() const;
-  LinedWall wet_wall(bool free_slip) const;
-  void move_wall(LinedWall& wall, double ahead) const;
+  sph::LinedWall wet_wall(bool free_slip) const;
+  void move_wall(sph::LinedWall& wall, double ahead) const;
 
   struct Implementation;  ///< for the passes' own files
 
@@ -86,4 +86,4 @@ class Solids : public DeformableBody {
   std::unique_ptr<Implementation> self_;
 };
 
-}  // namespace undex::sph
+}  // namespace undex::solid

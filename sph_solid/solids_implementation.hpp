@@ -9,17 +9,18 @@
 #include "sph_solid/solids.hpp"
 #include "sph_solid/total_lagrangian.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 /// A body's particles: one range, in the order of the start.
 struct SolidGroup {
-  const SolidBody* body;
+  const Body* body;
   std::uint32_t begin, end;
   double spacing, h;                            // [m]
   std::unique_ptr<TotalLagrangian> lagrangian;  // null: updated Lagrangian
 };
 
 struct Solids::Implementation {
+  sph::Settings around;  // what all particles share, and whether there is water
   Settings settings;
   SolidParticles particles;
   std::vector<SolidGroup> groups;
@@ -38,7 +39,7 @@ struct Solids::Implementation {
   std::vector<Vec3> surface_position, surface_velocity, surface_acceleration;
   std::vector<double> surface_mass;
 
-  explicit Implementation(const Settings& settings);
+  Implementation(const Settings& settings, const sph::Settings& around);
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
@@ -71,4 +72,4 @@ struct Solids::Implementation {
   std::string description_of(std::uint32_t particle, const char* what, double dt) const;
 };
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -8,7 +8,9 @@
 #include "sph_fluid/pairs/kernels.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
+
+using namespace sph;  // pairs, cells and kernels
 namespace {
 
 using Kernel = WendlandC2;
@@ -67,10 +69,11 @@ class Bins {
 
 }  // namespace
 
-TotalLagrangian::TotalLagrangian(const Settings& settings, const SolidBody& body, std::uint32_t begin, std::uint32_t end,
-                                 double h, double spacing, std::span<const double> volume, const SolidParticles& particles)
-    : body_(&body), begin_(begin), end_(end), dimension_(settings.dimension), h_(h), spacing_(spacing) {
-  const SolidNumerics& numerics = settings.solid_numerics;
+TotalLagrangian::TotalLagrangian(const Settings& settings, const sph::Settings& around, const Body& body, std::uint32_t begin,
+                                 std::uint32_t end, double h, double spacing, std::span<const double> volume,
+                                 const SolidParticles& particles)
+    : body_(&body), begin_(begin), end_(end), dimension_(around.dimension), h_(h), spacing_(spacing) {
+  const Numerics& numerics = settings.numerics;
   hourglass_ = numerics.hourglass * body.material.shear_modulus;
   // The secant's yield stress: what a slow test at room temperature shows at a per cent.
   yield_ = materials::flow_stress(body.material.flow, 0.01, 1.0, body.material.T_room);
@@ -83,10 +86,11 @@ TotalLagrangian::TotalLagrangian(const Settings& settings, const SolidBody& body
   stretched_.assign(n, 0.0);
   stiffness_.assign(n, hourglass_);
   rows_.resize(n);
-  find_neighbours(settings, volume, particles);
+  find_neighbours(around, volume, particles);
 }
 
-void TotalLagrangian::find_neighbours(const Settings& settings, std::span<const double> volume, const SolidParticles& particles) {
+void TotalLagrangian::find_neighbours(const sph::Settings& around, std::span<const double> volume,
+                                      const SolidParticles& particles) {
   const std::uint32_t n = end_ - begin_;
   const double reach = Kernel::support * h_;
   const std::span<const Vec3> X(particles.start.data() + begin_, n);
@@ -94,7 +98,7 @@ void TotalLagrangian::find_neighbours(const Settings& settings, std::span<const 
   unsigned images[8], image_count = 0;
   for (unsigned image = 0; image < 8; ++image) {
     bool wanted = true;
-    for (int a = 0; a < 3; ++a) wanted = wanted && (!(image >> a & 1) || settings.symmetry.axis[a]);
+    for (int a = 0; a < 3; ++a) wanted = wanted && (!(image >> a & 1) || around.symmetry.axis[a]);
     if (wanted) images[image_count++] = image;
   }
   const auto for_each_neighbour = [&](std::uint32_t i, auto visit) {
@@ -245,4 +249,4 @@ std::size_t TotalLagrangian::memory_bytes() const {
          (end_ - begin_) * (2 * sizeof(Mat3) + 4 * sizeof(double) + sizeof(Row));
 }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

@@ -14,17 +14,17 @@
 #include <span>
 #include <vector>
 
-#include "sph_fluid/settings.hpp"
+#include "sph_solid/settings.hpp"
 #include "sph_solid/solid_particles.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 
 class TotalLagrangian {
  public:
   /// Finds the neighbours of particles begin..end, whose volumes [m^d] at the start are given. `scale` multiplies volumes'
   /// smoothing length h [m]. Throws std::invalid_argument where a particle has too few neighbours for a gradient.
-  TotalLagrangian(const Settings& settings, const SolidBody& body, std::uint32_t begin, std::uint32_t end, double h,
-                  double spacing, std::span<const double> volume, const SolidParticles& particles);
+  TotalLagrangian(const Settings& settings, const sph::Settings& around, const Body& body, std::uint32_t begin, std::uint32_t end,
+                  double h, double spacing, std::span<const double> volume, const SolidParticles& particles);
 
   /// Deformation gradients at the present positions, and stresses after a step dt [s].
   void update(SolidParticles& particles, double dt);
@@ -44,11 +44,11 @@ class TotalLagrangian {
   struct alignas(64) Row {
     double a[9], k, x[3];
   };
-  void find_neighbours(const Settings& settings, std::span<const double> volume, const SolidParticles& particles);
+  void find_neighbours(const sph::Settings& around, std::span<const double> volume, const SolidParticles& particles);
   void make_row(const SolidParticles& particles, std::uint32_t k, const Mat3& F);
   void find_rate(SolidParticles& particles, std::uint32_t i, const Mat3& F) const;
 
-  const SolidBody* body_;
+  const Body* body_;
   std::uint32_t begin_, end_;
   int dimension_;
   double h_, spacing_, hourglass_, yield_;
@@ -62,4 +62,4 @@ class TotalLagrangian {
   std::vector<Row> rows_;
 };
 
-}  // namespace undex::sph
+}  // namespace undex::solid

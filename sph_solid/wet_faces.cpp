@@ -10,7 +10,7 @@
 #include "sph_solid/solid_faces.hpp"
 #include "sph_solid/solids_implementation.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 namespace {
 
 /// A patch of surface over u and v, with the direction out of the body.
@@ -74,9 +74,9 @@ FacePatch flat_patch(int axis, double position, const Vec3& low, const Vec3& hig
   return patch;
 }
 
-std::vector<FacePatch> wet_patches(const SolidBody& body, const Settings& settings) {
-  const auto& mirror = settings.symmetry.axis;
-  std::vector<std::string> names = body.wet.empty() ? solid_faces(body.shape.base, settings.dimension) : body.wet;
+std::vector<FacePatch> wet_patches(const Body& body, const sph::Settings& around) {
+  const auto& mirror = around.symmetry.axis;
+  std::vector<std::string> names = body.wet.empty() ? solid_faces(body.shape.base, around.dimension) : body.wet;
   const auto refuse = [&](const std::string& name) {
     return std::invalid_argument(
         "solid '" + body.name + "': coupling.solids = \"surface\" cannot mesh the face '" + name +
@@ -131,9 +131,9 @@ void mesh(const FacePatch& patch, double spacing, WetSurface& surface) {
 
 void Solids::mesh_wet_faces() {
   Implementation& s = *self_;
-  for (const SolidBody& body : s.settings.solids)
-    for (const FacePatch& patch : wet_patches(body, s.settings))
-      mesh(patch, body.spacing.value_or(s.settings.lattice.spacing), s.surface);
+  for (const Body& body : s.settings.bodies)
+    for (const FacePatch& patch : wet_patches(body, s.around))
+      mesh(patch, body.spacing.value_or(s.around.lattice.spacing), s.surface);
   s.surface_points.resize(s.surface.nodes.size());
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t n = 0; n < s.surface_points.size(); ++n) s.surface_points[n] = s.locate(s.surface.nodes[n]);
@@ -181,4 +181,4 @@ std::span<const Vec3> Solids::wet_velocities() const { return self_->surface_vel
 std::span<const Vec3> Solids::wet_accelerations() const { return self_->surface_acceleration; }
 std::span<const double> Solids::wet_masses() const { return self_->surface_mass; }
 
-}  // namespace undex::sph
+}  // namespace undex::solid

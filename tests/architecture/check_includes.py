@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "fem_structure": ["core", "materials"],
     "sph_solid": ["core", "materials", "sph_fluid"],
     "coupling": ["core", "materials", "sph_fluid", "sph_solid", "fem_structure"],
-    "scene": ["core", "materials", "sph_fluid/settings.hpp", "fem_structure/settings.hpp",
+    "scene": ["core", "materials", "sph_fluid/settings.hpp", "sph_solid/settings.hpp", "fem_structure/settings.hpp",
               "coupling/settings.hpp"],
     "output": ["core"],
     "run": ["core", "materials", "exact", "sph_fluid", "sph_solid", "fem_structure", "coupling", "scene", "output"],

@@ -162,14 +162,13 @@ TEST(AddedMass, LimitInClosedForm) {
 TEST(AddedMass, NodesOfParticlesShareTheirMass) {
   sph::Settings settings;
   settings.lattice.spacing = 0.01;
-  sph::SolidBody sheet;
+  solid::Body sheet;
   sheet.name = "sheet";
   sheet.shape.base = Box{Vec3(-0.1, -0.1, 0), Vec3(0.1, 0.1, 0.02)};
   sheet.material = materials::find_solid("al-5083-h116").value();
   sheet.wet = {"z_low"};
-  settings.solids = {sheet};
   settings.numerics.threads = 1;
-  sph::Solids solids(settings);
+  solid::Solids solids({.bodies = {sheet}, .numerics = {}, .planes = {}}, settings);
   solids.mesh_wet_faces();
   const auto mass = solids.wet_masses();
   const std::vector<Vec3>& x = solids.wet_surface().nodes;

@@ -37,7 +37,7 @@ std::unique_ptr<DeformableBody> block_of_elements() {
 }
 
 std::unique_ptr<DeformableBody> block_of_particles() {
-  sph::SolidBody block;
+  solid::Body block;
   block.name = "block";
   block.shape.base = Box{low, high};
   block.material = elastic();
@@ -46,8 +46,7 @@ std::unique_ptr<DeformableBody> block_of_particles() {
   sph::Settings settings;
   settings.lattice.spacing = 0.005;
   settings.numerics.threads = 1;
-  settings.solids = {block};
-  auto solids = std::make_unique<sph::Solids>(settings);
+  auto solids = std::make_unique<solid::Solids>(solid::Settings{.bodies = {block}, .numerics = {}, .planes = {}}, settings);
   solids->mesh_wet_faces();
   return solids;
 }

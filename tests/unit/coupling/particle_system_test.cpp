@@ -25,32 +25,38 @@ materials::Solid elastic(double density, double E) {
 }
 
 /// A drop of water flies against a block; nothing else is there.
-Settings drop(Description description, double density = 2700, double speed = 50) {
-  Settings s;
+struct Drop {
+  Settings water;
+  solid::Settings solids;
+};
+Drop drop(solid::Description description, double density = 2700, double speed = 50) {
+  Drop drop;
+  Settings& s = drop.water;
   s.lattice.spacing = 0.005;
   s.numerics.threads = 1;
   s.numerics.scheme = SchemeName::monaghan;
   s.numerics.courant = 0.3;
   s.bodies = {body("water", box(Vec3(0, 0, 0), Vec3(0.03, 0.03, 0.06)), "water-tait")};
   s.bodies[0].velocity = Vec3(0, 0, -speed);
-  SolidBody block;
+  solid::Body block;
   block.name = "block";
   block.shape = box(Vec3(0, 0, -0.03), Vec3(0.03, 0.03, 0));
   block.material = elastic(density, 70e9);
   block.description = description;
   block.wet = {"z_high"};
-  s.solids = {block};
-  return s;
+  drop.solids.bodies = {block};
+  return drop;
 }
 
-class Drop : public ::testing::TestWithParam<Description> {};
-INSTANTIATE_TEST_SUITE_P(Descriptions, Drop, ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
-                         [](const auto& one) { return one.param == Description::total_lagrangian ? "Total" : "Updated"; });
+class Impact : public ::testing::TestWithParam<solid::Description> {};
+INSTANTIATE_TEST_SUITE_P(Descriptions, Impact,
+                         ::testing::Values(solid::Description::total_lagrangian, solid::Description::updated_lagrangian),
+                         [](const auto& one) { return one.param == solid::Description::total_lagrangian ? "Total" : "Updated"; });
 
-TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
-  const Settings s = drop(GetParam());
-  Fluid fluid(s);
-  Solids solids(s);
+TEST_P(Impact, WhatTheWaterLosesTheBlockGains) {
+  const Drop s = drop(GetParam());
+  Fluid fluid(s.water);
+  solid::Solids solids(s.solids, s.water);
   coupling::ParticleSystem system(fluid, solids, true);
   const Vec3 start = fluid.ledger().momentum + solids.ledger().momentum;
   const Ledger first = fluid.ledger();
@@ -73,12 +79,12 @@ TEST_P(Drop, WhatTheWaterLosesTheBlockGains) {
   EXPECT_NEAR((l.kinetic + l.internal + l.dissipated + l.wall_work) / (first.kinetic + first.internal), 1.0, 0.01);
 }
 
-TEST_P(Drop, HeavyBlockIsARigidWall) {
+TEST_P(Impact, HeavyBlockIsARigidWall) {
   const auto stagnation = [&](bool rigid) {
-    Settings s = drop(GetParam(), 2.7e7, 30);
+    const Drop block = drop(GetParam(), 2.7e7, 30);
+    const Settings& s = block.water;
     std::vector<LinedWall> lining;
     if (rigid) {
-      s.solids.clear();
       Wall floor = box_wall(Vec3(-0.2, -0.2, 0), Vec3(0.2, 0.2, 0.2));
       for (auto& [name, face] : floor.faces) face = name == "z_low" ? FaceCondition::free_slip : FaceCondition::open;
       // The block's particles stand behind its face, and so do the floor's.
@@ -92,7 +98,7 @@ TEST_P(Drop, HeavyBlockIsARigidWall) {
     if (rigid) {
       while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
     } else {
-      Solids solids(s);
+      solid::Solids solids(block.solids, s);
       coupling::ParticleSystem system(fluid, solids, true);
       while (fluid.time() < 5e-6) system.advance(1.0);
     }

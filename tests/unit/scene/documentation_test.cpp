@@ -63,7 +63,7 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   expect("[structure]", "courant", structure.courant);
   expect("[structure]", "linear_viscosity", structure.linear_viscosity);
   expect("[structure]", "quadratic_viscosity", structure.quadratic_viscosity);
-  const sph::SolidNumerics solids;
+  const solid::Numerics solids;
   expect("[solid_scheme]", "eta", solids.eta);
   expect("[solid_scheme]", "courant", solids.courant);
   expect("[solid_scheme]", "linear_viscosity", solids.linear_viscosity);

@@ -395,22 +395,22 @@ TEST(RoundTrip, RadialVelocityIsKept) {
 
 TEST(RoundTrip, SolidsHoldTheValuesGiven) {
   const Scene scene = read(Scratch().write(rich[7]));
-  ASSERT_EQ(scene.fluid.solids.size(), 2u);
-  const sph::SolidBody& disc = scene.fluid.solids[0];
-  EXPECT_EQ(disc.description, sph::Description::updated_lagrangian);
+  ASSERT_EQ(scene.solids.bodies.size(), 2u);
+  const solid::Body& disc = scene.solids.bodies[0];
+  EXPECT_EQ(disc.description, solid::Description::updated_lagrangian);
   EXPECT_EQ(disc.lattice, sph::LatticeType::cartesian);
   EXPECT_EQ(disc.velocity, Vec3(1, 2, 0));
   EXPECT_EQ(disc.spin, Vec3(0, 0, 3));
   EXPECT_EQ(disc.residual_stress, 1e5);
-  const sph::SolidBody& ring = scene.fluid.solids[1];
-  EXPECT_EQ(ring.description, sph::Description::total_lagrangian);
+  const solid::Body& ring = scene.solids.bodies[1];
+  EXPECT_EQ(ring.description, solid::Description::total_lagrangian);
   EXPECT_EQ(ring.lattice, sph::LatticeType::rings);
   EXPECT_EQ(ring.shape.removed.size(), 2u);
-  EXPECT_EQ(scene.fluid.solid_numerics.artificial_stress, 0.3);
-  ASSERT_EQ(scene.fluid.planes.size(), 1u);
-  EXPECT_EQ(scene.fluid.planes[0].axis, 1);
-  EXPECT_EQ(scene.fluid.planes[0].position, 1);
-  EXPECT_FALSE(scene.fluid.planes[0].body_above);
+  EXPECT_EQ(scene.solids.numerics.artificial_stress, 0.3);
+  ASSERT_EQ(scene.solids.planes.size(), 1u);
+  EXPECT_EQ(scene.solids.planes[0].axis, 1);
+  EXPECT_EQ(scene.solids.planes[0].position, 1);
+  EXPECT_FALSE(scene.solids.planes[0].body_above);
   EXPECT_EQ(scene.output.solid_fields, (std::vector<std::string>{"mass", "damage"}));
   EXPECT_EQ(read_text(impact).coupling.solids, coupling::SolidContact::particles);
 }

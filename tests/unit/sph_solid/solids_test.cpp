@@ -12,7 +12,7 @@
 #include "materials/library.hpp"
 #include "materials/stress_update.hpp"
 
-namespace undex::sph {
+namespace undex::solid {
 namespace {
 
 constexpr double young = 70e9, poisson = 0.3, density = 2700;
@@ -27,8 +27,8 @@ materials::Solid elastic(double E = young, double nu = poisson) {
   return solid;
 }
 
-SolidBody body(const Primitive& shape, Description description, materials::Solid material = elastic()) {
-  SolidBody b;
+Body body(const Primitive& shape, Description description, materials::Solid material = elastic()) {
+  Body b;
   b.name = "body";
   b.shape = {shape, {}};
   b.material = std::move(material);
@@ -36,12 +36,18 @@ SolidBody body(const Primitive& shape, Description description, materials::Solid
   return b;
 }
 
-Settings scene(std::vector<SolidBody> solids, double spacing, int dimension = 3) {
-  Settings s;
-  s.dimension = dimension;
-  s.lattice.spacing = spacing;
-  s.solids = std::move(solids);
-  s.numerics.threads = 1;
+/// Solids, and what they share with water where there is some.
+struct Scene {
+  Settings solids;
+  sph::Settings around;
+};
+
+Scene scene(std::vector<Body> solids, double spacing, int dimension = 3) {
+  Scene s;
+  s.around.dimension = dimension;
+  s.around.lattice.spacing = spacing;
+  s.solids.bodies = std::move(solids);
+  s.around.numerics.threads = 1;
   return s;
 }
 
@@ -61,9 +67,9 @@ void set_motion(Solids& solids, const Mat3& M) {
 
 TEST_P(Both, FallsFreely) {
   const Vec3 g(2e5, 0, -1e6);
-  Settings falling = scene({body(block, GetParam())}, 0.005), resting = falling;
-  falling.gravity = g;
-  Solids falls(falling), rests(resting);
+  Scene falling = scene({body(block, GetParam())}, 0.005), resting = falling;
+  falling.around.gravity = g;
+  Solids falls(falling.solids, falling.around), rests(resting.solids, resting.around);
   Mat3 squeeze = Mat3::Zero();
   squeeze.diagonal() << -200, 100, 150;  // it rings as it falls
   set_motion(falls, squeeze);
@@ -86,10 +92,10 @@ TEST_P(Both, FallsFreely) {
 TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
   // Corrected gradients are exact for any arrangement, at borders too; updated ones as long as a corner has neighbours
   // enough.
-  Settings s = scene({body(block, GetParam())}, 0.005);
-  s.lattice.jitter = GetParam() == Description::total_lagrangian ? 0.3 : 0.0;
-  s.solid_numerics.linear_viscosity = s.solid_numerics.quadratic_viscosity = 0;
-  Solids solids(s);
+  Scene s = scene({body(block, GetParam())}, 0.005);
+  s.around.lattice.jitter = GetParam() == Description::total_lagrangian ? 0.3 : 0.0;
+  s.solids.numerics.linear_viscosity = s.solids.numerics.quadratic_viscosity = 0;
+  Solids solids(s.solids, s.around);
   Mat3 L;
   L << 30, -200, 50, 100, -20, 70, 10, 40, 60;
   set_motion(solids, L);
@@ -106,22 +112,22 @@ TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) gradient[a][b][q] = G(a, b);
   }
-  materials::advance_deviator(s.solids[0].material, gradient, volume, {}, dt, points, done);
+  materials::advance_deviator(s.solids.bodies[0].material, gradient, volume, {}, dt, points, done);
   Mat3 expected;
   const auto& d = points.deviator;
   expected << d[0][0], d[5][0], d[4][0], d[5][0], d[1][0], d[3][0], d[4][0], d[3][0], d[2][0];
-  expected -=
-      materials::evaluate(s.solids[0].material.pressure, density, density / F.determinant(), 0).pressure * Mat3::Identity();
+  expected -= materials::evaluate(s.solids.bodies[0].material.pressure, density, density / F.determinant(), 0).pressure *
+              Mat3::Identity();
   for (std::size_t i = 0; i < solids.particle_count(); ++i)
     ASSERT_LT((solids.stress(i) - expected).norm(), 1e-9 * expected.norm()) << i;
 }
 
 TEST_P(Both, TurningAStressedDiscMakesNoStress) {
-  SolidBody disc = body(Cylinder{2, Vec3::Zero(), 0.01, -1, 1}, GetParam());
+  Body disc = body(Cylinder{2, Vec3::Zero(), 0.01, -1, 1}, GetParam());
   disc.residual_stress = 1e8;
   disc.spin = Vec3(0, 0, 2000);  // the rim at 20 m/s: centrifugal stress is a thousandth of the residual one
-  Settings s = scene({disc}, 0.001, 2);
-  Solids solids(s);
+  Scene s = scene({disc}, 0.001, 2);
+  Solids solids(s.solids, s.around);
   const auto mean_radial = [&] {
     double sum = 0, mass = 0;
     for (std::size_t i = 0; i < solids.particle_count(); ++i) {
@@ -148,12 +154,12 @@ TEST_P(Both, TurningAStressedDiscMakesNoStress) {
 }
 
 TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
-  SolidBody rod = body(Cylinder{2, Vec3::Zero(), 3.8e-3, 0, 12e-3}, GetParam(), *materials::find_solid("armco-iron"));
+  Body rod = body(Cylinder{2, Vec3::Zero(), 3.8e-3, 0, 12e-3}, GetParam(), *materials::find_solid("armco-iron"));
   rod.velocity = Vec3(0, 0, -221);
-  Settings s = scene({rod}, 0.8e-3);
-  s.symmetry.axis = {true, true, false};
-  s.planes = {{2, 0.0, true}};
-  Solids solids(s);
+  Scene s = scene({rod}, 0.8e-3);
+  s.around.symmetry.axis = {true, true, false};
+  s.solids.planes = {{2, 0.0, true}};
+  Solids solids(s.solids, s.around);
   const double start = solids.ledger().kinetic;
   solids.advance(20e-6);
   const BodyLedger end = solids.ledger();
@@ -165,12 +171,12 @@ TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
 
 TEST_P(Both, BarRingsAtLovesFrequency) {
   const double length = 0.5, half = 0.025;
-  SolidBody bar = body(Box{Vec3(-half, -half, 0), Vec3(half, half, length)}, GetParam());
+  Body bar = body(Box{Vec3(-half, -half, 0), Vec3(half, half, length)}, GetParam());
   double error[2];
   for (int level = 0; level < 2; ++level) {
-    Settings s = scene({bar}, 2 * half / (3 << level));
-    s.symmetry.axis = {true, true, false};
-    Solids solids(s);
+    Scene s = scene({bar}, 2 * half / (3 << level));
+    s.around.symmetry.axis = {true, true, false};
+    Solids solids(s.solids, s.around);
     const std::vector<Vec3> X(solids.positions().begin(), solids.positions().end());
     std::vector<Vec3> impulse(X.size());
     const double k = std::numbers::pi / length;
@@ -201,13 +207,13 @@ TEST_P(Both, BarRingsAtLovesFrequency) {
 TEST_P(Both, BarsInCollisionExchangeTheirVelocities) {
   // Two like bars, end on, one at rest, slip-free only along the axis: after 2 L/c the struck one has all the momentum.
   const double length = 0.04, dx = 0.001;
-  SolidBody left = body(Box{Vec3(-length, -0.0025, -0.0025), Vec3(0, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0)),
-            right = body(Box{Vec3(0, -0.0025, -0.0025), Vec3(length, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0));
+  Body left = body(Box{Vec3(-length, -0.0025, -0.0025), Vec3(0, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0)),
+       right = body(Box{Vec3(0, -0.0025, -0.0025), Vec3(length, 0.0025, 0.0025)}, GetParam(), elastic(young, 0.0));
   left.velocity = Vec3(10, 0, 0);
   right.name = "struck";
-  Settings s = scene({left, right}, dx);
-  s.symmetry.axis = {false, true, true};
-  Solids solids(s);
+  Scene s = scene({left, right}, dx);
+  s.around.symmetry.axis = {false, true, true};
+  Solids solids(s.solids, s.around);
   const std::size_t first = solids.particles_by_body()[0];
   const BodyLedger start = solids.ledger();
   solids.advance(4 * length / std::sqrt(young / density));
@@ -222,18 +228,18 @@ TEST_P(Both, BarBouncesOffAPlane) {
   const double length = 0.04;
   double lost[2];
   for (int level = 0; level < 2; ++level) {
-    SolidBody bar = body(Box{Vec3(0, -0.004, -0.004), Vec3(length, 0.004, 0.004)}, GetParam(), elastic(young, 0.0));
+    Body bar = body(Box{Vec3(0, -0.004, -0.004), Vec3(length, 0.004, 0.004)}, GetParam(), elastic(young, 0.0));
     bar.velocity = Vec3(-10, 0, 0);
-    Settings s = scene({bar}, level == 0 ? 0.002 : 0.001);
-    s.symmetry.axis = {false, true, true};
-    s.planes = {{0, 0.0, true}};
-    Solids solids(s);
+    Scene s = scene({bar}, level == 0 ? 0.002 : 0.001);
+    s.around.symmetry.axis = {false, true, true};
+    s.solids.planes = {{0, 0.0, true}};
+    Solids solids(s.solids, s.around);
     const double mass = solids.ledger().mass, contact = 2 * length / std::sqrt(young / density);
     solids.advance(0.9 * contact);
     EXPECT_LT(solids.ledger().momentum[0], 9.0 * mass);
     solids.advance(1.5 * contact);
     lost[level] = 1 - solids.ledger().momentum[0] / (10 * mass);
-    for (const Vec3& x : solids.positions()) EXPECT_GT(x[0], 0.4 * s.lattice.spacing);
+    for (const Vec3& x : solids.positions()) EXPECT_GT(x[0], 0.4 * s.around.lattice.spacing);
   }
   // The first layer stops dead: what that takes falls with its thickness.
   EXPECT_LT(lost[1], 0.08);
@@ -243,13 +249,13 @@ TEST_P(Both, BarBouncesOffAPlane) {
 TEST_P(Both, QuarterEqualsWhole) {
   // Between symmetry planes a quarter of a plate that is struck moves as the whole does.
   const auto run = [&](bool quarter) {
-    SolidBody ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
-    SolidBody plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
+    Body ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
+    Body plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
     plate.name = "plate";
     ball.velocity = Vec3(0, 0, -500);
-    Settings s = scene({ball, plate}, 0.001);
-    s.symmetry.axis = {quarter, quarter, false};
-    auto solids = std::make_unique<Solids>(s);
+    Scene s = scene({ball, plate}, 0.001);
+    s.around.symmetry.axis = {quarter, quarter, false};
+    auto solids = std::make_unique<Solids>(s.solids, s.around);
     solids->advance(5e-6);
     return solids;
   };
@@ -264,13 +270,13 @@ TEST_P(Both, QuarterEqualsWhole) {
 
 TEST_P(Both, ThreadsDoNotChangeADigit) {
   const auto run = [&](int threads) {
-    SolidBody ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
-    SolidBody plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
+    Body ball = body(Sphere{Vec3(0, 0, 0.0062), 0.005}, GetParam(), *materials::find_solid("al-impact-table2"));
+    Body plate = body(Box{Vec3(-0.01, -0.01, -0.003), Vec3(0.01, 0.01, 0)}, GetParam(), ball.material);
     plate.name = "plate";
     ball.velocity = Vec3(0, 0, -2000);
-    Settings s = scene({ball, plate}, 0.001);
-    s.numerics.threads = threads;
-    Solids solids(s);
+    Scene s = scene({ball, plate}, 0.001);
+    s.around.numerics.threads = threads;
+    Solids solids(s.solids, s.around);
     solids.advance(2e-6);
     return solids.field("position");
   };
@@ -279,9 +285,9 @@ TEST_P(Both, ThreadsDoNotChangeADigit) {
 }
 
 TEST(Solids, PointsAreExactForLinearMotionAndHandBackWhatTheyGet) {
-  Settings s = scene({body(block, Description::total_lagrangian)}, 0.005);
-  s.symmetry.axis = {true, false, false};
-  Solids solids(s);
+  Scene s = scene({body(block, Description::total_lagrangian)}, 0.005);
+  s.around.symmetry.axis = {true, false, false};
+  Solids solids(s.solids, s.around);
   Mat3 M;
   M << 3, 0, 0, 0, -2, 5, 0, 1, 4;  // odd across the plane x = 0, as symmetry wants
   set_motion(solids, M);
@@ -307,10 +313,10 @@ TEST(Solids, HourglassStiffnessLeavesAffineMotionAlone) {
   // With and without it a stretched block feels the same forces: to round-off, also in a jittered lattice.
   std::vector<Vec3> force[2];
   for (int with = 0; with < 2; ++with) {
-    Settings s = scene({body(block, Description::total_lagrangian)}, 0.005);
-    s.lattice.jitter = 0.3;
-    s.solid_numerics.hourglass = with;
-    Solids solids(s);
+    Scene s = scene({body(block, Description::total_lagrangian)}, 0.005);
+    s.around.lattice.jitter = 0.3;
+    s.solids.numerics.hourglass = with;
+    Solids solids(s.solids, s.around);
     Mat3 L;
     L << 300, -200, 50, 100, -20, 70, 10, 40, 60;
     set_motion(solids, L);
@@ -327,9 +333,9 @@ TEST(Solids, HourglassStiffnessLeavesAffineMotionAlone) {
 }
 
 TEST(Solids, MistakesNameTheBodyAndTheRemedy) {
-  const auto message = [](const Settings& s) {
+  const auto message = [](const Scene& s) {
     try {
-      Solids solids(s);
+      Solids solids(s.solids, s.around);
     } catch (const std::invalid_argument& mistake) {
       return std::string(mistake.what());
     }
@@ -339,10 +345,10 @@ TEST(Solids, MistakesNameTheBodyAndTheRemedy) {
       message(scene({body(Box{Vec3(0, 0, 0), Vec3(0.1, 0.1, 0.001)}, Description::total_lagrangian)}, 0.005));
   EXPECT_NE(thin.find("'body'"), std::string::npos) << thin;
   EXPECT_NE(thin.find("finer spacing"), std::string::npos) << thin;
-  SolidBody square = body(block, Description::total_lagrangian);
+  Body square = body(block, Description::total_lagrangian);
   square.residual_stress = 1e8;
   EXPECT_NE(message(scene({square}, 0.005)).find("residual_stress"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace undex::sph
+}  // namespace undex::solid
