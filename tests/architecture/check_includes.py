@@ -35,6 +35,9 @@ MAY_INCLUDE = {
 # Headers of fem_structure that other modules see; what they include must be free of deal.II too.
 PUBLIC_OF_FEM = ["structure.hpp", "settings.hpp"]
 
+# Rooms inside a module, lowest first; "" is the module's own folder. A room includes itself and those below it.
+ROOMS = {"sph_fluid": ["pairs", "schemes", "", "walls", "water"]}
+
 # Libraries that one module keeps to itself.
 LIBRARY_OWNERS = {
     "deal.II/": ["fem_structure"],
@@ -83,6 +86,28 @@ def check_module(root, relative, findings):
                 findings.append(f"{relative}: <{target}> belongs to {' and '.join(owners)} alone")
 
 
+def room_of(path):
+    """Place among its module's rooms of a file that is in one of them, else None."""
+    parts = pathlib.PurePosixPath(path).parts
+    rooms = ROOMS.get(parts[0], [])
+    room = parts[1] if len(parts) > 2 else ""
+    return rooms.index(room) if room in rooms else None
+
+
+def check_rooms(root, relative, findings):
+    module = relative.parts[0]
+    if module not in ROOMS:
+        return
+    here = room_of(relative.as_posix())
+    if here is None:
+        findings.append(f"{relative}: {relative.parts[1]}/ is none of the rooms of {module}")
+        return
+    for quoted, target in includes(root / relative):
+        there = room_of(target) if quoted and target.split("/")[0] == module else None
+        if there is not None and there > here:
+            findings.append(f"{relative}: includes {target}, which stands above it")
+
+
 def check_deal_ii_is_private(root, findings):
     """No public header of fem_structure may reach deal.II, over whatever other headers."""
     waiting = [f"fem_structure/{name}" for name in PUBLIC_OF_FEM]
@@ -114,6 +139,7 @@ def check(root):
         if relative.parts[0] in MODULES and relative.suffix in SOURCES:
             counted += 1
             check_module(root, relative, findings)
+            check_rooms(root, relative, findings)
         check_paths(root, relative, findings)
     check_deal_ii_is_private(root, findings)
     if counted == 0:
@@ -134,6 +160,10 @@ def self_test():
         "fem_structure/structure.hpp": ('#include "fem_structure/private.hpp"', "deal.II is seen"),
         "docs/a.md": ("see /" + "home/me/notes", "a path outside"),
         "app/a.cpp": ('#include "run.hpp"', "without its module"),
+        "sph_fluid/pairs/a.hpp": ('#include "sph_fluid/schemes/b.hpp"', "stands above it"),
+        "sph_fluid/settings.hpp": ('#include "sph_fluid/walls/b.hpp"', "stands above it"),
+        "sph_fluid/walls/a.cpp": ('#include "sph_fluid/water/fluid.hpp"', "stands above it"),
+        "sph_fluid/attic/a.cpp": ("", "none of the rooms"),
         "run/a.cpp": ('#include "judge/judge.hpp"', "run must not include"),
         "judge/a.cpp": ('#include "study/study.hpp"', "judge must not include"),
         "judge/b.cpp": ('#include "sph_fluid/water/fluid.hpp"', "judge must not include"),
