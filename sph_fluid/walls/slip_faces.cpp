@@ -77,7 +77,7 @@ std::optional<Crossing> crossing(const Cylinder& wall, const Vec3& x, double far
 
 std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension) {
   const double at = x[faces.axis];
-  if ((at >= faces.low || faces.symmetric) && at <= faces.high) return {};  // nearly all
+  if (!is_beyond(faces, x)) return {};
   for (int a = 0; a < dimension; ++a)
     if (a != faces.axis && (x[a] < faces.window.low[a] - far || x[a] > faces.window.high[a] + far)) return {};
   const double face = at < faces.low ? faces.low : faces.high;

@@ -81,6 +81,12 @@ struct Crossing {
   Vec3 place, normal, foot;
 };
 
+/// Is a place beyond one of the faces? Nearly none is, and all are asked.
+inline bool is_beyond(const SlipFaces::Pair& faces, const Vec3& x) {
+  const double at = x[faces.axis];
+  return (at < faces.low && !faces.symmetric) || at > faces.high;
+}
+
 /// Of a place beyond the face by no more than `far` [m]; beyond that it is not this wall's.
 std::optional<Crossing> crossing(const Cylinder& wall, const Vec3& x, double far, int dimension);
 std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension);

@@ -146,7 +146,8 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
       if (crossed) turn(particles, i, *crossed, Vec3::Zero());
     };
     for (const Cylinder& wall : faces.round) turn_at(wall);
-    for (const SlipFaces::Pair& pair : faces.plane) turn_at(pair);
+    for (const SlipFaces::Pair& pair : faces.plane)
+      if (is_beyond(pair, place_of(particles, i))) turn_at(pair);
   }
   return work;
 }
