@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
+#include "judge/judge.hpp"
 #include "study/compare_runs.hpp"
 #include "study/study.hpp"
 
@@ -49,6 +50,15 @@ int dispatch(int argc, char** argv) {
   SceneArguments check_arguments;
   CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
   add_scene_arguments(*check, check_arguments);
+
+  judge::RejudgeOptions judge_options;
+  CLI::App* judgement = program.add_subcommand(
+      "judge", "judge a finished run again from what it has left: a changed definition or reference needs no new run");
+  judgement->add_option("run", judge_options.run, "output folder of the run")->required()->type_name("RUN");
+  judgement->add_option("--reference", judge_options.reference,
+                        "CSV in place of the scene's reference: a table of metrics, or a reference history");
+  judgement->add_flag("-q,--quiet", judge_options.quiet, "print nothing but errors");
+  judgement->footer("Rewrites the metrics in summary.json (and profile.csv); nothing else changes. Definitions: docs/outputs.md");
 
   study::CompareOptions compare_options;
   CLI::App* comparison = program.add_subcommand(
@@ -94,6 +104,10 @@ int dispatch(int argc, char** argv) {
       "The study file: docs/studies.md");
 
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
+  std::string page;
+  CLI::App* keys =
+      program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/scene-file.md")->group("");
+  keys->add_option("page", page, "the page; its marks say which table goes where")->required();
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
   bool json = false;
@@ -106,6 +120,10 @@ int dispatch(int argc, char** argv) {
   }
   if (*run) return run_scene(run_arguments);
   if (*check) return check_scene(check_arguments);
+  if (*judgement) {
+    judge::rejudge(judge_options);
+    return exit_done;
+  }
   if (*comparison) {
     study::compare_runs(compare_options);
     return exit_done;
@@ -115,6 +133,7 @@ int dispatch(int argc, char** argv) {
     return study::run_study(study_options);
   }
   if (*materials) return print_materials();
+  if (*keys) return write_keys(page);
   if (*list) return list_scenes();
   if (*version) return print_version(json);
   return exit_usage;

@@ -33,16 +33,6 @@ Reference reference_of(const scene::Scene& scene, const Comparison* comparison, 
   return reference;
 }
 
-std::string metrics_alone(const output::NamedNumbers& metrics) {
-  std::string text;
-  char line[120];
-  for (const auto& [name, value] : metrics) {
-    std::snprintf(line, sizeof line, "%-34s %.5g\n", name.c_str(), value);
-    text += line;
-  }
-  return text;
-}
-
 }  // namespace
 
 Judge::Judge(const scene::Scene& scene, const Reference& instead)
@@ -62,8 +52,18 @@ Verdict Judge::verdict(const output::Evidence& evidence) const {
 }
 
 std::string Judge::table(const output::NamedNumbers& metrics) const {
-  if (comparison_ && !comparison_->beside_table) return metrics_alone(metrics);
+  if (comparison_ && !comparison_->beside_table) return metrics_text(metrics);
   return metrics.empty() || !reference_.table ? "" : format_comparison(metrics, *reference_.table);
+}
+
+std::string metrics_text(const output::NamedNumbers& metrics) {
+  std::string text;
+  char line[120];
+  for (const auto& [name, value] : metrics) {
+    std::snprintf(line, sizeof line, "%-34s %.5g\n", name.c_str(), value);
+    text += line;
+  }
+  return text;
 }
 
 void write_tables(const fs::path& folder, const Verdict& verdict) {

@@ -31,4 +31,18 @@ class Judge {
 /// Writes the verdict's own tables into the run's folder. Throws FileError.
 void write_tables(const std::filesystem::path& folder, const Verdict& verdict);
 
+/// A line a metric.
+std::string metrics_text(const output::NamedNumbers& metrics);
+
+struct RejudgeOptions {
+  std::filesystem::path run;        ///< output folder of a run that has ended
+  std::filesystem::path reference;  ///< table or history in place of the scene's; may be empty
+  bool quiet = false;
+};
+
+/// undex judge: judges a run again from what it has left, as its scene (resolved.toml) says. Rewrites the metrics of summary.json
+/// and the comparison's own tables. Throws UsageError where there is nothing to judge or a file cannot be understood, SceneError
+/// where this program no longer reads the scene, FileError where it cannot write.
+void rejudge(const RejudgeOptions& options);
+
 }  // namespace undex::judge

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "judge/comparisons.hpp"
+#include "judge/metric_names.hpp"
 #include "judge/peaks.hpp"
 #include "judge/radial.hpp"
 
@@ -17,14 +18,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double us = 1e-6;
 
-std::string at_time(const std::string& name, int time_us, const std::string& unit) {
-  return name + "_" + std::to_string(time_us) + "us" + (unit.empty() ? "" : "_" + unit);
-}
-
 void add_table(NamedNumbers& out, const Series& series, const std::string& name, const std::string& unit,
                std::initializer_list<int> times_us) {
   for (const int time : times_us)
-    if (covers(series, time * us, time * us)) out.emplace_back(at_time(name, time, unit), value_at(series, time * us));
+    if (covers(series, time * us, time * us)) out.emplace_back(metric_at_time(name, time, unit), value_at(series, time * us));
 }
 
 void add_velocity(NamedNumbers& out, const Series& v) {

@@ -13,20 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Throws FileError unless this is the folder of a run that has ended.
-void require_finished_run(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_directory(path, error))
-    throw FileError(path.string() + ": no such folder; give the output folder of a run (undex run SCENE -o DIR)");
-  const auto has = [&](const char* name) { return fs::is_regular_file(path / name, error); };
-  if (has("summary.json")) return;
-  if (has("resolved.toml") && has("energy.csv"))
-    throw FileError(path.string() +
-                    ": the run is not finished (no summary.json); wait for it, or run the scene again if it was killed");
-  throw FileError(path.string() +
-                  ": not the folder of a run (no summary.json, resolved.toml, energy.csv); give what undex run wrote to with -o");
-}
-
 std::string whole_text(const fs::path& path) {
   if (const auto text = text_of(path)) return *text;
   throw FileError(path.string() + ": cannot be read; run the scene again, or take it from the run's original folder");
@@ -48,6 +34,19 @@ std::vector<HistoryColumn> finite_history(const fs::path& path) {
 }
 
 }  // namespace
+
+void require_finished_run(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+    throw FileError(path.string() + ": no such folder; give the output folder of a run (undex run SCENE -o DIR)");
+  const auto has = [&](const char* name) { return fs::is_regular_file(path / name, error); };
+  if (has("summary.json")) return;
+  if (has("resolved.toml") && has("energy.csv"))
+    throw FileError(path.string() +
+                    ": the run is not finished (no summary.json); wait for it, or run the scene again if it was killed");
+  throw FileError(path.string() +
+                  ": not the folder of a run (no summary.json, resolved.toml, energy.csv); give what undex run wrote to with -o");
+}
 
 RunFolder read_run_folder(const fs::path& path) {
   require_finished_run(path);

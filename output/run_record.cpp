@@ -33,6 +33,11 @@ void get(const nlohmann::ordered_json& json, const char* key, Number& value) {
     if (found->is_null()) value = nan;
 }
 
+/// Text from outside (a scene's name, a message) may not be UTF-8: replaced rather than to lose the record of the run.
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 std::string text(const nlohmann::ordered_json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
@@ -44,6 +49,15 @@ NamedNumbers numbers(const nlohmann::ordered_json& json, const char* key) {
     for (const auto& [name, value] : found->items())
       if (value.is_number() || value.is_null()) result.emplace_back(name, value.is_null() ? nan : value.get<double>());
   return result;
+}
+
+nlohmann::ordered_json summary_at(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path.string() + ": cannot be read; check that it is there and yours to read");
+  auto json = nlohmann::ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || text(json, "status").empty())
+    throw FileError(path.string() + ": not the summary of a run (no JSON object with a status); run the scene again");
+  return json;
 }
 
 }  // namespace
@@ -84,18 +98,19 @@ std::string to_json(const RunRecord& record) {
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   json["passes"] = object(record.passes);
   json["metrics"] = object(record.metrics);
-  // Text from outside (a scene's name, a message) may not be UTF-8: replace rather than lose the record of the run.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 void write_summary(const std::filesystem::path& path, const RunRecord& record) { write_text_atomically(path, to_json(record)); }
 
+void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics) {
+  nlohmann::ordered_json json = summary_at(path);
+  json["metrics"] = object(metrics);
+  write_text_atomically(path, json_text(json));
+}
+
 RunRecord read_summary(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw FileError(path.string() + ": cannot be read; check that it is there and yours to read");
-  const auto json = nlohmann::ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object() || text(json, "status").empty())
-    throw FileError(path.string() + ": not the summary of a run (no JSON object with a status); run the scene again");
+  const nlohmann::ordered_json json = summary_at(path);
   RunRecord record;
   record.scene = text(json, "scene");
   record.status = text(json, "status");

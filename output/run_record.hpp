@@ -49,6 +49,9 @@ std::string to_json(const RunRecord& record);
 /// Writes to_json() atomically. Throws FileError.
 void write_summary(const std::filesystem::path& path, const RunRecord& record);
 
+/// Writes other metrics into a summary.json, atomically; nothing else in it changes. Throws FileError.
+void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics);
+
 /// Reads a summary.json back. Keys that it does not have keep their defaults (NaN for the errors), null becomes NaN, keys
 /// of a newer program are passed over. Throws FileError when the file cannot be read or is no run's summary.
 RunRecord read_summary(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// The solids' passes over pairs, compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+// The solids' passes over pairs, compiled once per instruction set; see solid_loops.hpp for the choice at start-up.
 #include "sph_fluid/pairs/cluster_work.hpp"
 #include "sph_solid/solid_schemes.hpp"
 

@@ -128,7 +128,7 @@ PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   in.y = y_.data();
   in.z = z_.data();
   in.fluid = rows_.data();
-  in.solid = solid_.data();
+  in.second = solid_.data();
   in.deformation = deformation_.data();
   in.artificial_stress = settings_.numerics.artificial_stress;
   in.spacing = ranges_[0].spacing;

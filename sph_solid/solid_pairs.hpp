@@ -7,7 +7,7 @@
 
 #include "sph_fluid/pairs/blocks.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
-#include "sph_fluid/pairs/pair_loop.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
 #include "sph_solid/solid_loops.hpp"
 #include "sph_solid/settings.hpp"
 #include "sph_solid/solid_particles.hpp"

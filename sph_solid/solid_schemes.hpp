@@ -8,13 +8,14 @@
 //                     through a layer as stiff as they are, and a spacing thick, that pushes and never pulls. The forces are
 //                     the exact derivative of its energy, sum V q^2/(2 K). C_ref is the least overlap so far
 // The viscosity is Monaghan's, but on the jump that is left of v_ij . e when the velocity gradients of both sides have
-// carried it to the middle (as riemann_scheme.hpp does), approaching or not, and with the speed of shear waves: none in
+// carried it to the middle (as riemann.hpp does), approaching or not, and with the speed of shear waves: none in
 // smooth motion, all of it where neighbours move against each other unseen by any gradient. (Shocks have their bulk viscosity.)
 // The artificial stress (Gray, Monaghan, Swift 2001, doi 10.1016/S0045-7825(01)00254-7) acts here along the pair, on the
 // tension e . sigma e, with (dx/r)^4 - 1 >= 0 in place of (W(r)/W(dx))^4.
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
+#include "sph_fluid/pairs/moment_inverse.hpp"
 
 namespace undex::solid::UNDEX_LEVEL {
 
@@ -77,18 +78,15 @@ struct VelocityGradient {
   void store(const Vec<double>* s, bool, const PairInput& in, std::uint32_t first, int count) const {
     DeformationRow* out = in.deformation + first;
     for (int l = 0; l < count; ++l) {
-      const double xx = s[0][l], yy = dimension < 2 ? 1.0 : s[1][l], zz = dimension < 3 ? 1.0 : s[2][l], xy = s[3][l],
-                   yz = s[4][l], zx = s[5][l];
-      const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
-      const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
-      const double determinant = xx * a + xy * b + zx * c;
+      const double moments[6] = {s[0][l], s[1][l], s[2][l], s[3][l], s[4][l], s[5][l]};
+      const Adjugate<double> a = adjugate(moments, dimension, 1.0);
       // A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
       constexpr double least = 0.015;
-      const double part = determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
-      const double inverse = determinant > 0.0 ? trust / determinant : 0.0, rest = 1.0 - trust;
+      const double part = a.determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
+      const double inverse = a.determinant > 0.0 ? trust / a.determinant : 0.0, rest = 1.0 - trust;
       double* B = out[l].correction;
-      B[0] = a * inverse + rest, B[1] = d * inverse + rest, B[2] = f * inverse + rest;
-      B[3] = b * inverse, B[4] = e * inverse, B[5] = c * inverse;
+      B[0] = a.xx * inverse + rest, B[1] = a.yy * inverse + rest, B[2] = a.zz * inverse + rest;
+      B[3] = a.xy * inverse, B[4] = a.yz * inverse, B[5] = a.zx * inverse;
       for (int r = 0; r < 3; ++r) {
         const double gx = s[6 + 3 * r][l], gy = s[7 + 3 * r][l], gz = s[8 + 3 * r][l];
         out[l].gradient[3 * r] = gx * B[0] + gy * B[3] + gz * B[5];
@@ -166,13 +164,13 @@ struct SolidForces {
     // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
     const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
     const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
-    const V repulsive = keep(pair.near, repulsion * tension * maximum(nearness * nearness - 1, V{}));
+    const V repulsive = keep(pair.in_reach, repulsion * tension * maximum(nearness * nearness - 1, V{}));
     const V central = F * (viscous + repulsive);
     add_force(central, pair, i.volume, j.volume, si, sj);
     const V power = T(0.5) * central * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V closing = keep(pair.near, -mu);
+    const V closing = keep(pair.in_reach, -mu);
     si.closing = maximum(si.closing, closing);
     sj.closing = maximum(sj.closing, closing);
   }
@@ -224,7 +222,7 @@ struct ContactForces {
     const V power = T(0.5) * pair.F * damped * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V speed = keep(pair.near, closing);
+    const V speed = keep(pair.in_reach, closing);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
   }

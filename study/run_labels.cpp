@@ -19,18 +19,42 @@ const std::string* find(const RunSettings& settings, const std::string& key) {
   return nullptr;
 }
 
-// The smaller, the more a setting says about a run.
+/// What a setting says about a run, by its key: the smaller the rank, the more. The first line that fits counts.
+struct Telling {
+  enum { whole, end, begin, inside } where;  ///< of the key the words stand; an end begins after a dot
+  const char* words;
+  int rank;
+};
+constexpr int silent = -1;  // said about a run, not computed by it
+constexpr Telling tellings[] = {
+    {Telling::whole, "title", silent},
+    {Telling::whole, "probes", silent},
+    {Telling::whole, "output", silent},
+    {Telling::whole, "comparison", silent},
+    {Telling::whole, "threads", silent},
+    {Telling::end, "source", silent},
+    {Telling::whole, "name", 0},
+    {Telling::end, "method", 1},
+    {Telling::end, "element", 1},
+    {Telling::end, "description", 1},
+    {Telling::whole, "resolution.spacing", 2},
+    {Telling::end, "spacing", 3},
+    {Telling::end, "cells", 4},
+    {Telling::end, "material.name", 5},
+    {Telling::whole, "scheme.name", 6},
+    {Telling::begin, "scheme.", 7},
+    {Telling::inside, ".material.", 9},
+};
+
 int rank(const std::string& key) {
-  const auto is = [&](const char* end) { return key == end || key.ends_with(std::string(".") + end); };
-  if (key == "name") return 0;
-  if (is("method") || is("element") || is("description")) return 1;
-  if (key == "resolution.spacing") return 2;
-  if (is("spacing")) return 3;
-  if (is("cells")) return 4;
-  if (is("material.name")) return 5;
-  if (key == "scheme.name") return 6;
-  if (key.starts_with("scheme.")) return 7;
-  return key.find(".material.") == std::string::npos ? 8 : 9;
+  for (const auto& [where, words, rank] : tellings) {
+    const bool fits = key == words              ? where != Telling::begin && where != Telling::inside
+                      : where == Telling::end   ? key.ends_with(std::string(".") + words)
+                      : where == Telling::begin ? key.starts_with(words)
+                                                : where == Telling::inside && key.find(words) != std::string::npos;
+    if (fits) return rank;
+  }
+  return 8;
 }
 
 bool in_all(const DifferingSetting& setting) {
@@ -51,6 +75,8 @@ std::string spoken(const std::string& key, const std::string& value) {
 }
 
 }  // namespace
+
+bool is_silent(const std::string& key) { return rank(key) == silent; }
 
 std::vector<DifferingSetting> differing_settings(const std::vector<RunSettings>& runs) {
   std::vector<DifferingSetting> result;

@@ -11,6 +11,9 @@ namespace undex::study {
 /// text. Lengths are in metres.
 using RunSettings = std::vector<std::pair<std::string, std::string>>;
 
+/// Is it something said about a run, and not computed by it (title, probes, output, a source)?
+bool is_silent(const std::string& key);
+
 /// A setting that is not the same in all runs; empty text where a run does not have it.
 struct DifferingSetting {
   std::string key;

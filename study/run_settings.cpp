@@ -1,7 +1,6 @@
 #include "study/run_settings.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "scene/document.hpp"
 #include "scene/numbers.hpp"
@@ -37,16 +36,10 @@ std::string text_at(const Node& table, const char* key) {
   return found ? value_text(*found) : "";
 }
 
-// What is said about a run, not computed by it.
-bool silent(const std::string& key) {
-  static constexpr std::array keys{"title", "probes", "output", "comparison", "threads"};
-  return std::find(keys.begin(), keys.end(), key) != keys.end() || key == "source" || key.ends_with(".source");
-}
-
 void flatten(const Node& node, const std::string& path, RunSettings& settings) {
   for (const Entry* entry : in_file_order(node)) {
     const std::string key = path.empty() ? entry->key : path + "." + entry->key;
-    if (silent(key)) continue;
+    if (is_silent(key)) continue;
     const Node& value = entry->node;
     if (entry->key == "cells" && value.kind == Node::Kind::table) {
       std::string cells;

@@ -1,8 +1,6 @@
 #include "study/study_runs.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -15,7 +13,6 @@ namespace undex::study {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A resolved scene without its title, which nothing computes with.
 std::string settings_of(std::string resolved) {
@@ -129,29 +126,6 @@ void clear_run_folder(const fs::path& folder) {
                       "; remove it, or choose another folder with -o");
   }
   output::make_folder(folder);
-}
-
-std::vector<double> study_errors(const scene::Study& study, const output::RunRecord& record,
-                                 const std::optional<judge::ReferenceTable>& reference) {
-  output::NamedNumbers numbers = record.metrics;
-  numbers.insert(numbers.end(), {{"mass_error", record.mass_error},
-                                 {"momentum_error", record.momentum_error},
-                                 {"energy_error", record.energy_error},
-                                 {"interface_energy_error", record.interface_energy_error.value_or(nan)},
-                                 {"interface_impulse_error", record.interface_impulse_error.value_or(nan)}});
-  std::vector<double> errors;
-  for (const scene::StudyError& error : study.errors) {
-    errors.push_back(nan);
-    const double* value = output::find_number(numbers, error.metric);
-    if (!value) continue;
-    if (error.source.empty()) errors.back() = std::abs(*value);
-    if (error.source.empty() || !reference) continue;
-    for (const judge::ReferenceTable::Row& row : reference->rows)
-      for (std::size_t s = 0; s < row.values.size(); ++s)
-        if (row.metric == error.metric && reference->sources[s] == error.source)
-          errors.back() = std::abs(*value * row.scale - row.values[s].value) / std::abs(row.values[s].value);
-  }
-  return errors;
 }
 
 }  // namespace undex::study

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "judge/comparison_table.hpp"
+#include "output/run_record.hpp"
 #include "study/study_outcome.hpp"
 #include "study/study_table.hpp"
 #include "scene/study.hpp"
@@ -37,9 +37,5 @@ std::vector<std::filesystem::path> left_over(const std::vector<RunState>& states
 
 /// An empty folder for a run; what an older run of a study left there goes. Throws UsageError where something else is there.
 void clear_run_folder(const std::filesystem::path& folder);
-
-/// Magnitudes of the study's errors of a run that is done (NaN: it does not have them). `reference` is its scene's table.
-std::vector<double> study_errors(const scene::Study& study, const output::RunRecord& record,
-                                 const std::optional<judge::ReferenceTable>& reference);
 
 }  // namespace undex::study

@@ -150,7 +150,7 @@ class CandidateList {
   static constexpr int row = 8;
   /// Offsets of the parts within a block, and from block to block.
   static constexpr int place = 0, weight = 3 * W, state = 4 * W, second = (4 + row) * W;
-  static constexpr int sum = second + length_of((const Second*)nullptr) * W, stride = sum + sums * W;
+  static constexpr int sum = second + length_of<Second> * W, stride = sum + sums * W;
   std::uint32_t size = 0;  ///< candidates
 
   explicit CandidateList(Scratch& scratch) : scratch_(scratch) { reserve(64); }
@@ -199,7 +199,7 @@ class CandidateList {
   /// Candidates from `begin` on get their rows, mirrored.
   template <int offset, class Row>
   UNDEX_INLINE void fill_rows(std::uint32_t begin, const Row* rows, int image) {
-    constexpr int length = sizeof(Row) / sizeof(*numbers(rows));
+    constexpr int length = length_of<Row>;
     for (std::uint32_t c = begin; c < size; c += D) {
       T* to = block(c / W) + c % W + offset;
       fill_tiles<0, length / D * D>(to, rows, scratch_.index + c);
@@ -207,14 +207,14 @@ class CandidateList {
         for (int l = 0; l < D; ++l) to[k * W + l] = T(numbers(rows + scratch_.index[c + l])[k]);
       if (image == 0) continue;
       for (int k = 0; k < length; ++k)
-        if (__builtin_popcount(unsigned(parity_of(rows, k) & image)) & 1)
+        if (__builtin_popcount(unsigned(Row::parity(k) & image)) & 1)
           for (int l = 0; l < D; ++l) to[k * W + l] = -to[k * W + l];
     }
   }
 
   /// Adds what candidates begin..real have received to the rows of the particles that they are, mirrored back.
   template <class Sums, class Row>
-  UNDEX_INLINE void hand_out(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
+  UNDEX_INLINE void scatter_sums(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
     constexpr int length = Sums::count;
     double part[D][length + D];
     for (std::uint32_t c = begin; c < real; c += D) {

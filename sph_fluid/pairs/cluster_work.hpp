@@ -1,7 +1,7 @@
 // The loop over pairs: the particles of a cluster, one after the other, against vectors of candidates. What a pair gives is
 // computed once and added to both sides. Blocks of clusters are worked on in an order in which a block waits for those of
 // its neighbours that come before it: sums do not depend on the number of threads.
-// Included by the files that are compiled once per instruction set; see pair_loop.hpp for the choice at start-up.
+// Included by the files that are compiled once per instruction set; see schemes/loops.hpp for the choice at start-up.
 #pragma once
 
 #include <omp.h>
@@ -10,6 +10,7 @@
 #include "sph_fluid/pairs/candidates.hpp"
 #include "sph_fluid/pairs/kernels.hpp"
 #include "sph_fluid/pairs/pair_data.hpp"
+#include "sph_fluid/pairs/pair_pass.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -60,12 +61,12 @@ struct ConstantH {
         reach2(T(k.support * k.support * h * h)) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
     pair.h = broadcast(h_);
-    pair.near = pair.r2 < reach2;
+    pair.in_reach = pair.r2 < reach2;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
+      pair.F = keep(pair.in_reach, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
     } else {
-      pair.F = keep(pair.near, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
+      pair.F = keep(pair.in_reach, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
     }
   }
 };
@@ -84,7 +85,7 @@ struct PairH {
     const T support = T(kernel.support);
     const V h = T(0.5) * (h_i + load(h_j));
     pair.h = h;
-    pair.near = pair.r2 < support * support * (h * h);
+    pair.in_reach = pair.r2 < support * support * (h * h);
     const V inverse_h = reciprocal(h);
     V scale = norm * (inverse_h * inverse_h * inverse_h);
     if (dimension > 1) scale *= inverse_h;
@@ -92,11 +93,11 @@ struct PairH {
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
       pair.F =
-          keep(pair.near,
+          keep(pair.in_reach,
                scale * kernel.template gradient_of_root<T>(minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
     } else {
       pair.F =
-          keep(pair.near,
+          keep(pair.in_reach,
                scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support))));
     }
   }
@@ -201,7 +202,7 @@ class ClusterWork {
     pairs_with<State, Sums, Pass::symmetric>(kind);
     if constexpr (Pass::symmetric)
       for (int k = 0; k < count; ++k)
-        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
+        list_.template scatter_sums<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
   }
 
   void with_walls() {
@@ -217,12 +218,14 @@ class ClusterWork {
       list_.template fill_rows<List::state>(0, in_.wall, image);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
-        list_.template hand_out<WallSums<V>>(0, real, out_.wall, image);
+        list_.template scatter_sums<WallSums<V>>(0, real, out_.wall, image);
       } else {
         pairs_with<Wall, WallSums<V>, false>(kind);
       }
     });
   }
+
+  const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
 
   /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
   void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
@@ -232,8 +235,7 @@ class ClusterWork {
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
     if (Pass::symmetric) list_.fill_weights(begin, halves);
     list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
-    if constexpr (with_second)
-      list_.template fill_rows<List::second>(begin, second_rows(in_, images, (const Second*)nullptr), image);
+    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
   }
 
   template <class Other, class OtherSums, bool two_sided>
@@ -276,10 +278,10 @@ class ClusterWork {
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
       smoothing.evaluate(pair, block + List::state + 7 * W);
       if constexpr (wall || !Pass::symmetric) {
-        met += keep(pair.near, broadcast(T(0.5)));
+        met += keep(pair.in_reach, broadcast(T(0.5)));
       } else {
         const V weight = load(block + List::weight);
-        met += keep(pair.near, weight);
+        met += keep(pair.in_reach, weight);
         pair.F *= weight;
       }
       OtherSums sj;
@@ -324,7 +326,7 @@ class ClusterWork {
   const Pass& pass_;
   const Cluster& cluster_;
   const GroupView& own_;
-  const Second* second_ = second_rows(in_, false, (const Second*)nullptr);
+  const Second* second_ = second_rows(false);
   List list_;
   const PairOutput& out_;
   Box3 box_;
@@ -349,7 +351,8 @@ void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
     }
 }
 
-template <class Kernel, template <class> class Scheme, class T>
+template <LoopKernel Kernel, template <class> class Scheme, class T>
+requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
@@ -362,6 +365,18 @@ void pass(const PairInput& in, const PairOutput& out) {
     out.interactions[b] = met;
     __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
   }
+}
+
+/// The loop of a pass: that of the kernel where it is one of `Own`, else the one that serves any.
+template <template <class> class Scheme, class... Own>
+CompiledLoop loop_of(KernelName kernel, Precision precision) {
+  const bool mixed = precision == Precision::mixed;
+  PairLoop chosen = mixed ? &pass<AnyKernel, Scheme, float> : &pass<AnyKernel, Scheme, double>;
+  [[maybe_unused]] const auto prefer = [&](KernelName name, PairLoop own) {
+    if (name == kernel) chosen = own;
+  };
+  (prefer(Own::which, mixed ? &pass<Own, Scheme, float> : &pass<Own, Scheme, double>), ...);
+  return {chosen, Scheme<double>::State::Second::which};
 }
 
 }  // namespace

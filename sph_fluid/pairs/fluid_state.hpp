@@ -6,48 +6,6 @@
 
 namespace undex::sph::UNDEX_LEVEL {
 
-/// How the entries of a row change from a particle to its mirror image: bit a is set where the sign changes with axis a.
-inline constexpr int parity_of(const FluidRow*, int k) { return k < 3 ? 1 << k : 0; }
-inline constexpr int parity_of(const WallRow*, int k) { return k < 3 ? 1 << k : k < 6 ? 1 << (k - 3) : 0; }
-inline constexpr int parity_of(const GradientRow*, int k) {
-  return k < 3 ? 0 : k < 6 ? (k == 5 ? 5 : 3 << (k - 3)) : 1 << (k - 6);
-}
-inline constexpr int parity_of(const ViscosityRow*, int) { return 0; }
-inline constexpr int parity_of(const CorrectedRow*, int k) {
-  return k < 10 ? parity_of((const GradientRow*)nullptr, k < 9 ? k : 0) : parity_of((const GradientRow*)nullptr, k - 10);
-}
-inline constexpr int parity_of(const SolidRow*, int k) {
-  constexpr int shear[3] = {6, 5, 3};
-  return k < 9 ? (1 << k / 3) ^ (1 << k % 3) : (k - 9) % 6 < 3 ? 0 : shear[(k - 9) % 6 - 3];  // shear_sound is k = 21
-}
-
-/// A row as an array of its numbers.
-inline const double* numbers(const FluidRow* row) { return &row->vx; }
-inline const double* numbers(const WallRow* row) { return &row->vx; }
-inline const float* numbers(const GradientRow* row) { return row->strain; }
-inline const float* numbers(const CorrectedRow* row) { return row->gradient.strain; }
-inline const double* numbers(const ViscosityRow* row) { return &row->alpha; }
-inline const double* numbers(const SolidRow* row) { return row->corrected; }
-
-/// The rows that a scheme reads beside FluidRow.
-struct NoRow {};
-inline const NoRow* second_rows(const PairInput&, bool, const NoRow*) { return nullptr; }
-inline const GradientRow* second_rows(const PairInput& in, bool images, const GradientRow*) {
-  return images ? in.images.gradient : in.gradient;
-}
-inline const CorrectedRow* second_rows(const PairInput& in, bool images, const CorrectedRow*) {
-  return images ? in.images.corrected : in.corrected;
-}
-inline const ViscosityRow* second_rows(const PairInput& in, bool images, const ViscosityRow*) {
-  return images ? in.images.viscosity : in.viscosity;
-}
-inline const SolidRow* second_rows(const PairInput& in, bool, const SolidRow*) { return in.solid; }
-inline constexpr int length_of(const NoRow*) { return 0; }
-inline constexpr int length_of(const GradientRow*) { return sizeof(GradientRow) / sizeof(float); }
-inline constexpr int length_of(const CorrectedRow*) { return sizeof(CorrectedRow) / sizeof(float); }
-inline constexpr int length_of(const ViscosityRow*) { return sizeof(ViscosityRow) / sizeof(double); }
-inline constexpr int length_of(const SolidRow*) { return sizeof(SolidRow) / sizeof(double); }
-
 /// Whom a pass pairs a particle with.
 enum class Partners { all, own_body, other_bodies };
 
@@ -55,9 +13,9 @@ enum class Partners { all, own_body, other_bodies };
 template <class V>
 struct Pair {
   V dx, dy, dz, r2, h, F;
-  Mask<Element<V>> near;  ///< within the kernel's support; F is zero elsewhere
-  bool gas;               ///< is one of them gas?
-  bool alike;             ///< are they of one material?
+  Mask<Element<V>> in_reach;  ///< within the kernel's support; F is zero elsewhere
+  bool gas;                   ///< is one of them gas?
+  bool alike;                 ///< are they of one material?
 };
 
 /// A fluid particle; `read(k)` gives entry k of its row.

@@ -11,10 +11,31 @@ namespace undex::sph {
 
 enum class KernelName { gaussian, wendland_c2, wendland_c4, wendland_c6, cubic_spline, quintic_spline };
 
+/// What a kernel is to the loops over pairs: its support in smoothing lengths, its normalisation, and the slope f of its shape as
+/// a function of q = r/h (`needs_root`) or of q^2, for one number or a vector of them, finite and without branches up to the
+/// support.
+template <class K>
+concept LoopKernel = requires(const K kernel, int dimension, double q) {
+  kernel.support* q;
+  kernel.norm(dimension) * q;
+  requires K::needs_root || requires { K::template gradient<double>(q); };
+  requires !K::needs_root || requires { kernel.template gradient_of_root<double>(q); };
+};
+
+/// And to all others: its name and default h/dx in scenes, and its shape w(q), zero beyond the support.
+template <class K>
+concept Kernel = LoopKernel<K> && requires(double q) {
+  KernelName(K::which);
+  static_cast<const char*>(K::name);
+  K::usual_eta* q;
+  K::shape(q) * q;
+};
+
 /// Gaussian cut at 3h (Chen et al. 2019, eq. 3). The cut value e^-9 is subtracted and the rest renormalised, so that
 /// W is continuous, its integral is 1 and the first moment of its gradient is exactly -d.
 struct Gaussian {
   static constexpr double support = 3.0, usual_eta = 1.2;
+  static constexpr KernelName which = KernelName::gaussian;
   static constexpr const char* name = "gaussian";
 
   static double norm(int dimension) {
@@ -54,6 +75,7 @@ struct Gaussian {
 /// dimension a lower power would do, but one form serves all loops).
 struct WendlandC2 {
   static constexpr double support = 2.0, usual_eta = 1.5;
+  static constexpr KernelName which = KernelName::wendland_c2;
   static constexpr const char* name = "wendland_c2";
 
   static double norm(int dimension) {
@@ -77,6 +99,7 @@ struct WendlandC2 {
 /// (1 - q/2)^6 (35/12 q^2 + 3q + 1) in every dimension.
 struct WendlandC4 {
   static constexpr double support = 2.0, usual_eta = 1.75;
+  static constexpr KernelName which = KernelName::wendland_c4;
   static constexpr const char* name = "wendland_c4";
 
   static double norm(int dimension) {
@@ -99,6 +122,7 @@ struct WendlandC4 {
 /// Wendland's C6 function of compact support 2h, (1 - q/2)^8 (4q^3 + 25/4 q^2 + 4q + 1) in every dimension.
 struct WendlandC6 {
   static constexpr double support = 2.0, usual_eta = 2.0;
+  static constexpr KernelName which = KernelName::wendland_c6;
   static constexpr const char* name = "wendland_c6";
 
   static double norm(int dimension) {
@@ -122,6 +146,7 @@ struct WendlandC6 {
 /// while its base is positive.
 struct CubicSpline {
   static constexpr double support = 2.0, usual_eta = 1.325;
+  static constexpr KernelName which = KernelName::cubic_spline;
   static constexpr const char* name = "cubic_spline";
 
   static double norm(int dimension) {
@@ -145,6 +170,7 @@ struct CubicSpline {
 /// each term while its base is positive.
 struct QuinticSpline {
   static constexpr double support = 3.0, usual_eta = 1.1;
+  static constexpr KernelName which = KernelName::quintic_spline;
   static constexpr const char* name = "quintic_spline";
 
   static double norm(int dimension) {

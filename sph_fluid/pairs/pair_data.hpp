@@ -1,81 +1,22 @@
-// Plain data that the pair loops read and write. Nothing here may instantiate library templates: the loops are compiled
-// several times, for several instruction sets, and only this header and kernels.hpp are shared with the rest.
+// Plain data that the pair loops work on, beside the rows (rows.hpp): groups of particles and their cells, the order of work, and
+// all that a loop reads and writes. As in rows.hpp, nothing here may instantiate library templates.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 #include "sph_fluid/pairs/kernels.hpp"
+#include "sph_fluid/pairs/rows.hpp"
 
 namespace undex::sph {
 
 /// Particles of a cluster, the unit of work of a pair loop. Every one of them is paired with all candidates of the cluster.
 inline constexpr int cluster_size = 8;
 
-// What a pair reads and what it gives lies in rows, one a particle: a list of candidates is made of them by transposing.
-
-/// What a pair reads of a fluid particle beside its place.
-struct alignas(64) FluidRow {
-  double vx, vy, vz;  ///< velocity predicted for this evaluation [m/s]
-  double p;           ///< [Pa]
-  double volume;      ///< m/rho [m^3]
-  double rho, c;      ///< density [kg/m^3], sound speed [m/s]
-  double h;           ///< smoothing length [m]
-};
-
-/// Limited reconstruction's raw material: gradients of velocity (its symmetric part, all that the component along a pair
-/// needs: xx, yy, zz, xy, yz, zx) [1/s] and of pressure [Pa/m]. Single precision: they only shape a correction.
-struct GradientRow {
-  float strain[6], pressure[3];
-  float filling;  ///< by which the pair rates of gas are divided (riemann_scheme.hpp); 1 in liquids
-};
-
-/// Lower bound of GradientRow::filling. Half is what a plane free surface has.
-inline constexpr float least_filling = 0.5f;
-
-/// The same with the correction of kernel gradients B (xx, yy, zz, xy, yz, zx) [-]; see corrected_scheme.hpp.
-struct CorrectedRow {
-  GradientRow gradient;
-  float correction[6];
-};
-
-/// A particle's own coefficient of viscosity; see switch_scheme.hpp.
-struct ViscosityRow {
-  double alpha;
-};
-
-/// What pairs of solid particles read beside FluidRow [Pa]: sigma B, row by row, B being the correction of kernel gradients
-/// (solid_schemes.hpp); sigma itself: xx, yy, zz, yz, zx, xy; the rate of strain, in the same order [1/s]; and
-/// the speed of shear waves [m/s].
-struct SolidRow {
-  double corrected[9], stress[6], strain[6], shear_sound;
-};
-
-/// What a solid particle learns from its body's others: velocity gradient d v_a/d x_b at 3a + b [1/s], and the correction B
-/// (xx, yy, zz, xy, yz, zx) [-].
-struct DeformationRow {
-  double gradient[9], correction[6];
-};
-
-/// What a pair reads of a wall's dummy particle.
-struct alignas(64) WallRow {
-  double vx, vy, vz;  ///< [m/s]
-  double nx, ny, nz;  ///< unit normal, away from the fluid; behind an edge, the edge's direction
-  double volume;      ///< [m^3]
-  double slip;        ///< 1: free slip; 0: no slip, or a free-slip corner (nothing slips there); -1: a free-slip edge
-};
-
-/// What the pairs add up for a fluid particle.
-struct SumRow {
-  double fx, fy, fz;   ///< acceleration times density [N/m^3]
-  double compression;  ///< (d rho/dt)/rho [1/s]
-  double heat;         ///< viscous heating times density [W/m^3]
-  double closing;      ///< a maximum: closing speed to a neighbour, as the scheme's step limit wants it [m/s]
-};
-
-/// What they add up for a wall's particle.
-struct ForceRow {
-  double fx, fy, fz;  ///< [N]
+/// Numbers in the loop over pairs. State and its integration are in double precision always.
+enum class Precision {
+  full,   ///< double
+  mixed,  ///< pairs in single precision, on places relative to their cluster
 };
 
 /// Cells over one range of particles. Rows run along x; a row's cells are a quarter as long as wide, so that the run of
@@ -88,7 +29,7 @@ struct CellGrid {
   const std::uint32_t* start;          ///< count[0]*count[1]*count[2] + 1 entries; first particle of each cell, x fastest
 };
 
-/// Which pairs a pass takes where bodies have steps of their own (local_steps.cpp).
+/// Which pairs a pass takes where bodies have steps of their own (local_steps.hpp).
 enum class PairChoice : int {
   all,
   slow,  ///< of two slow particles
@@ -112,9 +53,7 @@ struct GroupView {
 struct ImageInput {
   const double *x, *y, *z;
   const FluidRow* fluid;
-  const GradientRow* gradient;
-  const CorrectedRow* corrected;
-  const ViscosityRow* viscosity;
+  const void* second;  ///< as PairInput has them
 };
 
 /// Up to cluster_size consecutive particles of one row of cells.
@@ -142,12 +81,13 @@ struct Scratch {
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
 void release(Scratch&);
 
-/// A kernel as the loops need it; kernel_choice() makes it (lattice.hpp).
+/// A kernel as the loops need it.
 struct KernelChoice {
   KernelName name;
   double support;  ///< in smoothing lengths
   double norm;
 };
+KernelChoice kernel_choice(KernelName kernel, int dimension);
 
 /// Everything that the loop over pairs reads.
 struct PairInput {
@@ -156,12 +96,9 @@ struct PairInput {
   double kernel_scale;  ///< of the kernel's gradient: 1 over its lattice factor (kernels.hpp), or 1
   const double *x, *y, *z;
   const FluidRow* fluid;
-  KernelChoice kernel;    ///< read by the loop that serves any kernel
-  GradientRow* gradient;  ///< null where the scheme has no use for them, as the next two
-  CorrectedRow* corrected;
-  const ViscosityRow* viscosity;
-  const SolidRow* solid;  ///< of the solids' passes, as the next
-  DeformationRow* deformation;
+  KernelChoice kernel;          ///< read by the loop that serves any kernel
+  void* second;                 ///< what the pass reads beside `fluid`, or a pass before it writes: rows of its State's Second
+  DeformationRow* deformation;  ///< what the solids' gradients write
   double artificial_stress, spacing;  ///< of the solids' forces
   double contact_damping;             ///< share of the acoustic impedance
   const GroupView* groups;            ///< of particles first, then of images
@@ -190,6 +127,13 @@ struct PairOutput {
   ForceRow* wall;           ///< null where nobody asks for it
   SumRow* images;           ///< what they receive, for their owners
   long long* interactions;  ///< true neighbours met (directed), one counter per block
+};
+
+/// A compiled loop over pairs, and the rows that it reads beside FluidRow.
+using PairLoop = void (*)(const PairInput&, const PairOutput&);
+struct CompiledLoop {
+  PairLoop run;
+  SecondRow second;
 };
 
 }  // namespace undex::sph

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
+#include "sph_fluid/pairs/moment_inverse.hpp"
 #include "sph_fluid/schemes/wall_mirror.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
@@ -70,20 +71,17 @@ struct Reconstruction {
 
   /// Gradients of up to a vector of particles from their sums, in the order of Sums.
   void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
-    GradientRow* out = in.gradient + first;
+    GradientRow* out = static_cast<GradientRow*>(in.second) + first;
     using D = Vec<double>;
     const D one = broadcast(1.0), half = broadcast(double(least_filling));
     const D filling = gas ? maximum((s[0] + s[1] + s[2]) * (1.0 / dimension), half) : one;
-    const D xx = s[0], yy = dimension < 2 ? one : s[1], zz = dimension < 3 ? one : s[2], xy = s[3], yz = s[4], zx = s[5];
-    // Adjugate of the symmetric matrix; where neighbours are too few or in a plane, the uncorrected sum stands.
-    const D a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
-    const D d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
-    const D determinant = xx * a + xy * b + zx * c;
-    const Mask<double> good = determinant > 0.05;
-    const D inverse = 1.0 / (good ? determinant : one);
-    const D B[3][3] = {{good ? a * inverse : one, keep(good, b * inverse), keep(good, c * inverse)},
-                       {keep(good, b * inverse), good ? d * inverse : one, keep(good, e * inverse)},
-                       {keep(good, c * inverse), keep(good, e * inverse), good ? f * inverse : one}};
+    // Where neighbours are too few or in a plane, the uncorrected sum stands.
+    const Adjugate<D> a = adjugate(s, dimension, one);
+    const Mask<double> good = a.determinant > 0.05;
+    const D inverse = 1.0 / (good ? a.determinant : one);
+    const D xy = keep(good, a.xy * inverse), yz = keep(good, a.yz * inverse), zx = keep(good, a.zx * inverse);
+    const D B[3][3] = {
+        {good ? a.xx * inverse : one, xy, zx}, {xy, good ? a.yy * inverse : one, yz}, {zx, yz, good ? a.zz * inverse : one}};
     D g[3][3], p[3];
     for (int r = 0; r < 3; ++r) {
       for (int q = 0; q < 3; ++q) g[r][q] = s[6 + 3 * r] * B[0][q] + s[7 + 3 * r] * B[1][q] + s[8 + 3 * r] * B[2][q];

@@ -303,6 +303,12 @@ def test_case(program, cases, name, scratch):
     if (first / "scene.toml").read_bytes() != (pathlib.Path(cases) / case.scene / "case.toml").read_bytes():
         found.append("scene.toml is not the scene as it was given")
 
+    (first / "summary.json").write_text(json.dumps({**summary, "metrics": {}}))
+    judged = runs.call(program, "judge", first, "-q")
+    if summary["metrics"] and (judged.returncode != 0 or runs.summary(first) != summary):
+        found.append(f"judged again from its evidence it is another: {judged.stderr.strip()}")
+    (first / "summary.json").write_text(json.dumps(summary))
+
     finished = runs.call(program, "run", first / "resolved.toml", "-o", second, "-j1", "-q")
     if finished.returncode != 0:
         return found + [f"resolved.toml: exit code {finished.returncode}: {finished.stderr.strip()}"]

@@ -545,6 +545,110 @@ class Compare(Case):
         self.ends(runs.call(*plot, self.here / "coarse"), 2, "comparison.csv: missing; give the folder that undex compare")
 
 
+class Judge(Case):
+    """undex judge: a verdict from what is on disk."""
+
+    RIGID = {"resolution.spacing": 0.008, "start.kind": "plain", "end_time": 2e-6, "output.field_times": "[]"}
+
+    def rigid(self, *arguments, **more):
+        """A short run of a comparison with a table and a history, from files of our own."""
+        shutil.copytree(CASES / "rigid_cylinder", self.here / "rigid", dirs_exist_ok=True)
+        more.get("damage", lambda: None)()
+        return self.undex("run", "rigid", "-o", "out", "-q", *runs.overrides(self.RIGID), *arguments)
+
+    def forget(self, folder="out"):
+        """The summary as it was; on disk its metrics are gone."""
+        path = self.here / folder / "summary.json"
+        before = path.read_text()
+        path.write_text(json.dumps({**json.loads(before), "metrics": {"l1_pressure": 1e9}}, indent=2))
+        return before
+
+    def test_the_same_verdict(self):
+        self.ends(self.quick(), 0)
+        summary, before = self.forget(), contents(self.here)
+        finished = self.undex("judge", "out")
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"(?m)^sjogreen: .*exact solution")
+        self.assertRegex(finished.stdout, r"(?m)^l1_pressure +0\.\d+$")
+        self.assertEqual((self.here / "out/summary.json").read_text(), summary)
+        after = contents(self.here)
+        self.assertEqual({**after, "out/summary.json": None}, {**before, "out/summary.json": None})
+        self.assertEqual(self.undex("judge", "out", "-q").stdout, "")
+
+    def test_of_a_run_that_the_numerics_stopped(self):
+        settings = {"resolution.spacing": 0.006, "start.kind": "plain", "output.field_times": "[]", "scheme.fixed_step": 1e-4}
+        self.ends(self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q", *runs.overrides(settings)), 3)
+        summary = self.forget()
+        self.ends(self.undex("judge", "out", "-q"), 0)
+        self.assertEqual((self.here / "out/summary.json").read_text(), summary)
+
+    def test_other_references(self):
+        self.ends(self.rigid(), 0)
+        first = runs.summary(self.here / "out")
+        table = self.here / "rigid/reference/metrics.csv"
+        mine = self.here / "mine.csv"
+        mine.write_text("metric,label,unit,scale,my own source\narrival_s,arrival,us,1e6,1\n")
+        finished = self.undex("judge", "out", "--reference", mine)
+        self.ends(finished, 0)
+        self.assertIn("my own source", finished.stdout)
+        self.assertNotIn("l1_0_95us", runs.summary(self.here / "out")["metrics"], "no history lies beside that table")
+        self.ends(self.undex("judge", "out", "--reference", table.with_name("midline_wall_pressure.csv"), "-q"), 0)
+        self.assertEqual(runs.summary(self.here / "out"), first)
+        table.unlink()
+        self.ends(self.undex("judge", "out", "-q"), 2, r"comparison\.reference: no file")
+        self.ends(self.undex("judge", "out", "--reference", mine, "-q"), 0)
+
+    def test_a_damaged_reference_is_found_before_the_first_step(self):
+        def damage(name, text):
+            return lambda: (self.here / "rigid/reference" / name).write_text(text)
+        for name, text, says in (("metrics.csv", "metric,label\n", r"metrics\.csv:1: the header must be"),
+                                 ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n0,1\n1,x\n", r"pressure\.csv:3: expected numbers"),
+                                 ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n1,1\n0,1\n", r"column 'pressure': .*mend")):
+            with self.subTest(name=name):
+                self.ends(self.rigid(damage=damage(name, text)), 1, says)
+                self.assertFalse((self.here / "out").exists())
+                self.ends(self.undex("check", "rigid", *runs.overrides(self.RIGID)), 1, says)
+
+    def test_what_cannot_be_judged(self):
+        self.ends(self.quick(), 0)
+        self.ends(self.quick("none", changes={"comparison.kind": "none", "comparison.solution": "riemann"}), 2, "belongs to kind")
+        (self.here / "empty").mkdir()
+        (self.here / "words.csv").write_text("some words\n")
+        before = contents(self.here)
+        for arguments, says in ((["missing"], "missing: no such folder"), (["empty"], "not the folder of a run"),
+                                (["out", "--reference", "none.csv"], "none.csv: cannot be read as a reference"),
+                                (["out", "--reference", "words.csv"], "neither a table of metrics"),
+                                (["out", "--reference", CASES / "rigid_cylinder/reference/metrics.csv"], "has no use for a reference"),
+                                ([], "run is required")):
+            with self.subTest(arguments=arguments):
+                finished = self.undex("judge", *arguments)
+                self.ends(finished, 2, says)
+                self.assertEqual(contents(self.here), before)
+        evidence = self.here / "out/evidence.h5"
+        sound = evidence.read_bytes()
+        for bytes_left, says in ((sound[:-100], r"evidence\.h5: .*damaged.*run the scene again"), (None, r"evidence\.h5: no such file")):
+            evidence.write_bytes(bytes_left) if bytes_left is not None else evidence.unlink()
+            self.ends(self.undex("judge", "out"), 2, says)
+        evidence.write_bytes(sound)
+        (self.here / "out/resolved.toml").unlink()
+        self.ends(self.undex("judge", "out"), 2, r"resolved\.toml")
+        (self.here / "out/summary.json").unlink()
+        self.ends(self.undex("judge", "out"), 2, "not the folder of a run")
+
+    @unittest.skipUnless(runs.h5py, "no h5py")
+    def test_evidence_can_be_read_by_others(self):
+        self.ends(self.quick(), 0)
+        with runs.h5py.File(self.here / "out/evidence.h5", "r") as file:
+            self.assertEqual(file.attrs["time"], runs.summary(self.here / "out")["time_s"])
+            self.assertEqual(file["energy/time"].attrs["unit"], b"s")
+            for name, table in runs.histories(self.here / "out").items():
+                group = file[name.removesuffix(".csv")]
+                self.assertEqual(set(group), set(table.names))
+                for column in table.names:
+                    self.assertEqual([f"{value:.9g}" for value in group[column][()]], [f"{value:.9g}" for value in table.column(column)])
+            self.assertEqual(file["fields/fluid.position"].shape, (100, 3))
+
+
 class Study(Case):
     """undex study, on runs of a tenth of a second."""
 
@@ -617,6 +721,21 @@ scheme.name = "monaghan"
         again = command.replace("undex", str(PROGRAM), 1).replace("-o out/study_gas/runs/spacing_0.01__monaghan", "-o by_hand")
         self.assertEqual(subprocess.run(["sh", "-c", again], cwd=self.here).returncode, 0)
         self.assertEqual(runs.differences(self.here / "by_hand", self.here / "out/study_gas/runs/spacing_0.01__monaghan"), [])
+
+    def test_judged_again(self):
+        """A run's new metrics come into the tables; nothing is computed again."""
+        self.study()
+        self.runs_only(*self.NAMES)
+        first, folder = self.rows(), self.here / "out/study_gas/runs" / self.NAMES[0]
+        record = runs.summary(folder)
+        for metrics, expected in (({"l1_pressure": 7}, "7"), (None, first[self.NAMES[0]]["l1_pressure"])):
+            if metrics:
+                (folder / "summary.json").write_text(json.dumps({**record, "metrics": metrics}))
+            else:
+                self.ends(self.undex("judge", folder, "-q"), 0)
+            self.runs_only()
+            self.assertEqual(self.rows()[self.NAMES[0]]["l1_pressure"], expected)
+        self.assertEqual(self.rows(), first)
 
     def test_going_on(self):
         self.study()

@@ -15,7 +15,7 @@
 #include "core/vector.hpp"
 #include "sph_fluid/pairs/blocks.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
-#include "sph_fluid/pairs/pair_loop.hpp"
+#include "sph_fluid/schemes/loops.hpp"
 
 namespace undex::sph::testing {
 
@@ -105,7 +105,13 @@ inline Result run(const Sample& sample) {
     for (const std::uint32_t k : cells[g].order()) result.particles.push_back(all[k]);
     double h_max = 0;
     for (const Particle& q : set.particles) h_max = std::max(h_max, q.h);
-    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h, set.variable_h, std::uint32_t(g)});
+    groups.push_back({.begin = begin,
+                      .end = end,
+                      .grid = cells[g].view(),
+                      .h_max = h_max,
+                      .variable_h = set.variable_h,
+                      .gas = set.variable_h,
+                      .material = std::uint32_t(g)});
     h_largest = std::max(h_largest, h_max);
     begin = end;
   }
@@ -148,12 +154,12 @@ inline Result run(const Sample& sample) {
   in.fluid = rows.data();
   in.kernel = kernel_choice(sample.kernel, sample.dimension);
   result.gradients.resize(loops.second == SecondRow::gradient ? n : 0);
-  in.gradient = result.gradients.data();
   std::vector<CorrectedRow> corrected(loops.second == SecondRow::corrected ? n : 0);
-  in.corrected = corrected.data();
   std::vector<ViscosityRow> viscosity(loops.second == SecondRow::viscosity ? n : 0);
   for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i].alpha = alpha_of(sample, result.particles[i]);
-  in.viscosity = viscosity.data();
+  in.second = loops.second == SecondRow::gradient    ? static_cast<void*>(result.gradients.data())
+              : loops.second == SecondRow::corrected ? static_cast<void*>(corrected.data())
+                                                     : viscosity.data();
   in.groups = groups.data();
   in.group_count = int(groups.size());
   in.wall_x = wx.data();
@@ -173,7 +179,8 @@ inline Result run(const Sample& sample) {
   std::vector<long long> interactions(blocks.block_count());
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
-  const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, nullptr, interactions.data()};
+  const PairOutput out{
+      .fluid = sums.data(), .wall = m > 0 ? forces.data() : nullptr, .images = nullptr, .interactions = interactions.data()};
   if (loops.gradients) loops.gradients(in, out);
   loops.rates(in, out);
   omp_set_num_threads(before);

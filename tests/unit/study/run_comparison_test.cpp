@@ -25,21 +25,21 @@ Quantity displacement() {
 
 TEST(DifferenceNorms, OfTwoRampsOnDifferentTimes) {
   // The difference 0.1 t, of a peak of 1: mean 0.05, root mean square 0.1/sqrt(3).
-  const Norms norms = difference_norms(ramp(1.1, 1, 0.25), ramp(1, 1, 0.01), 0, 1);
+  const output::Norms norms = output::difference_norms(ramp(1.1, 1, 0.25), ramp(1, 1, 0.01), 0, 1);
   EXPECT_NEAR(norms.l1, 0.05, 1e-12);
   EXPECT_NEAR(norms.l2, 0.1 / std::sqrt(3), 1e-12);
 }
 
 TEST(DifferenceNorms, ASignThatChangesWithinAStepIsIntegratedExactly) {
   // 2 t - 1 on one interval, of a peak of 2.
-  const Norms norms = difference_norms({{0, 1}, {1, 3}}, {{0, 1}, {2, 2}}, 0, 1);
+  const output::Norms norms = output::difference_norms({{0, 1}, {1, 3}}, {{0, 1}, {2, 2}}, 0, 1);
   EXPECT_NEAR(norms.l1, 0.5 / 2, 1e-15);
   EXPECT_NEAR(norms.l2, std::sqrt(1.0 / 3) / 2, 1e-15);
 }
 
 TEST(DifferenceNorms, AreUnknownWhereASeriesDoesNotReachOrTheBaseIsZero) {
   EXPECT_TRUE(std::isnan(difference_norms(ramp(1, 0.5, 0.1), ramp(1, 1, 0.1), 0, 1).l1));
-  EXPECT_TRUE(std::isnan(difference_norms({}, ramp(1, 1, 0.1), 0, 1).l1));
+  EXPECT_TRUE(std::isnan(output::difference_norms({}, ramp(1, 1, 0.1), 0, 1).l1));
   EXPECT_TRUE(std::isnan(difference_norms(ramp(1, 1, 0.1), ramp(0, 1, 0.1), 0, 1).l2));
   EXPECT_TRUE(std::isnan(difference_norms(ramp(1, 1, 0.1), ramp(1, 1, 0.1), 1, 1).l2));
 }

@@ -1,0 +1,137 @@
+// A Riemann problem per pair instead of an artificial viscosity. Along the unit vector e from i to j, u = v . e and p are
+// carried to the middle from both sides with limited gradients (reconstruction.hpp, van Leer's limiter); an acoustic
+// solver with impedances Z = rho c gives
+//   p* = (pL + pR)/2 + b ZL ZR (uL - uR)/(ZL + ZR),      b = min(12 max(uL - uR, 0)/c, 1)
+//   u* = (ZL uL + ZR uR + (pL - pR)/2)/(ZL + ZR)
+// (the switch b is that of Zhang, Hu, Adams 2017, J. Comput. Phys. 335, doi 10.1016/j.jcp.2017.01.027, with 12 in place of 3:
+// full dissipation at shocks, little in smooth flow), and the rates are
+//   (d rho/dt)_i = 2 sum_j w_ij V_j (v_i . e - u*)(-F r)
+//   (d v/dt)_i   = -2 sum_j m_j p*/(rho_i rho_j) grad W_ij
+//   (d e/dt)_i   = 2 sum_j m_j p*/(rho_i rho_j) (v_i . e - u*)(-F r)
+// The pair force and the pair work have one p* and one u*, so mass, momentum and total energy are conserved to round-off
+// by the space discretisation; what of the work is not -p_i times the change of volume counts as heat. The weight w is rho_j
+// where two particles of one material approach each other: the rate is then the time derivative of sum_j m_j W_ij, and the
+// density behind a shock is that of the particles' distances, whatever happened within the front. Elsewhere w is rho_i, which
+// is consistent across jumps of density and holds on in expansion (rho_j would keep an error of density constant while the
+// density itself falls).
+// In a pair with gas (or detonation products) the central parts are not reconstructed, only the dissipative parts are: the
+// jump of density at a contact is not a gradient to be followed. Within one material they are plain averages; between two
+//   central p = (rho_j p_i + rho_i p_j)/(rho_i + rho_j),      central u = (Z_i u_i + Z_j u_j)/(Z_i + Z_j)
+// Across a contact the acceleration is continuous, not the gradient of p: the slopes of p are as the densities (Hu, Adams 2007,
+// J. Comput. Phys. 227, doi 10.1016/j.jcp.2007.07.013), and the heavy side hardly feels the light one: the contact moves with
+// it. Plain averages throw light gas off the water that drives it. p* >= 0.
+// In all pairs with gas all three rates carry the factor 2/(f_i + f_j), f being the filling (reconstruction.hpp) of gas and 1 of
+// liquids. Without it (f = 1 for all) a volume that is wrong by a factor f changes f times as fast as its surroundings: after
+// an expansion by f/(f - 1) it is infinite. One factor a pair: nothing is lost of conservation.
+#pragma once
+
+#include "sph_fluid/schemes/reconstruction.hpp"
+#include "sph_fluid/schemes/wall_mirror.hpp"
+
+namespace undex::sph::UNDEX_LEVEL {
+
+/// A fluid particle with its gradients (reconstruction.hpp).
+template <class V>
+struct ReconstructedState : FluidState<V> {
+  V strain[6], climb[3], filling;
+  using Second = GradientRow;
+
+  template <class Read>
+  UNDEX_INLINE void read_second(Read entry) {
+    for (int k = 0; k < 6; ++k) strain[k] = entry(k);
+    for (int k = 0; k < 3; ++k) climb[k] = entry(6 + k);
+    filling = entry(9);
+  }
+};
+
+template <class T>
+struct Riemann {
+  using V = Vec<T>;
+  using State = ReconstructedState<V>;
+  using Wall = WallState<V>;
+  using Sums = FluidSums<V>;
+  static constexpr bool symmetric = true;
+  static constexpr Partners partners = Partners::all;
+
+  explicit Riemann(const PairInput&) {}
+
+  /// van Leer's harmonic mean of two slopes, zero where they disagree in sign.
+  UNDEX_INLINE static V limited(V a, V b) {
+    const V product = a * b;
+    const Mask<T> agree = product > 0;
+    return keep(agree, 2 * product * reciprocal(agree ? a + b : broadcast(T(1))));
+  }
+
+  UNDEX_INLINE static V switched(V closing, V sound) { return minimum(12 * closing, sound) * reciprocal(sound); }
+
+  /// Velocity of i relative to j along the pair, and the solution of its Riemann problem.
+  struct Flux {
+    V inverse_r, u, p_star, u_star;
+  };
+
+  UNDEX_INLINE static Flux flux(const State& i, const State& j, const Pair<V>& pair) {
+    const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
+    const V inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
+    // Velocities relative to v_i . e: the left one is zero, the right one is u.
+    const V u = ((i.vx - j.vx) * dx + (i.vy - j.vy) * dy + (i.vz - j.vz) * dz) * inverse_r;
+    const V dp = j.p - i.p;
+    const V xx = dx * dx, yy = dy * dy, zz = dz * dz, xy = 2 * dx * dy, yz = 2 * dy * dz, zx = 2 * dz * dx;
+    const auto rise = [&](const V(&s)[6]) {
+      return (s[0] * xx + s[1] * yy + s[2] * zz + s[3] * xy + s[4] * yz + s[5] * zx) * inverse_r;
+    };
+    const auto climb = [&](const V(&g)[3]) { return -(g[0] * dx + g[1] * dy + g[2] * dz); };
+    const V uL = T(0.5) * limited(u, 2 * rise(i.strain) - u), uR = u - T(0.5) * limited(u, 2 * rise(j.strain) - u);
+    const V pL = i.p + T(0.5) * limited(dp, 2 * climb(i.climb) - dp), pR = j.p - T(0.5) * limited(dp, 2 * climb(j.climb) - dp);
+
+    const V Zi = i.rho * i.c, Zj = j.rho * j.c, Z = Zi + Zj;
+    const V inverse_Z = reciprocal(Z);
+    const V jump = uL - uR;
+    const V closing = maximum(jump, V{});
+    const V inverse_rho = reciprocal(i.rho + j.rho);
+    const V sound = Z * inverse_rho;
+    V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
+    if (pair.gas) {
+      central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * inverse_rho;
+      central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
+    }
+    const V p_star = maximum(central_p + switched(closing, sound) * (Zi * Zj * inverse_Z) * jump, V{});
+    const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
+    return {inverse_r, u, p_star, u_star};
+  }
+
+  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    const auto [inverse_r, u, p_star, u_star] = flux(i, j, pair);
+    const V F = pair.gas ? 4 * pair.F * reciprocal(i.filling + j.filling) : 2 * pair.F;
+    add_force(F * p_star, pair, i.volume, j.volume, si, sj);
+    const V Fr = F * (pair.r2 * inverse_r);
+    const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
+    V Ci = Di, Cj = Dj;  // of the density: with the weight w
+    if (pair.alike) {
+      const Mask<T> approach = u < 0;
+      const V inverse = reciprocal(i.rho * j.rho);
+      Ci = approach ? Di * (j.rho * j.rho * inverse) : Di;
+      Cj = approach ? Dj * (i.rho * i.rho * inverse) : Dj;
+    }
+    si.compression += Ci;
+    sj.compression += Cj;
+    si.heat += Di * p_star - Ci * i.p;
+    sj.heat += Dj * p_star - Cj * j.p;
+    const V speed = keep(pair.in_reach, -u);
+    si.closing = maximum(si.closing, speed);
+    sj.closing = maximum(sj.closing, speed);
+  }
+
+  /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own.
+  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+    const WallPair<V> m = wall_pair(i, w, pair);
+    const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
+    const V p_star = maximum(i.p + T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho * i.c * jump, V{});
+    add_wall_force(2 * pair.F * p_star, m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V D = pair.F * w.volume * m.approach;
+    si.compression += D;
+    si.heat += D * (p_star - i.p);
+    si.closing = maximum(si.closing, keep(pair.in_reach, jump));
+  }
+};
+
+}  // namespace undex::sph::UNDEX_LEVEL

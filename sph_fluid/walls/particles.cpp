@@ -1,0 +1,144 @@
+#include "sph_fluid/walls/particles.hpp"
+
+namespace undex::sph {
+namespace {
+
+/// to = from, by all threads.
+template <class T>
+void copy_all(std::vector<T>& to, const std::vector<T>& from) {
+  to.resize(from.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+}
+
+}  // namespace
+
+void Particles::resize(std::size_t n, bool with_energy) {
+  for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
+  if (with_energy) energy.assign(n, 0.0);
+  id.resize(n);
+}
+
+void Particles::make_room(SecondRow second, double alpha, bool of_stages) {
+  const std::size_t n = size();
+  rate.assign(n, SumRow{});
+  if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
+  if (of_stages) keep_start();
+  else earlier.assign(n, EarlierRates{});
+  predicted.resize(n);
+  if (second == SecondRow::gradient) gradient.resize(n);
+  if (second == SecondRow::corrected) corrected.resize(n);
+}
+
+void Particles::permute(std::uint32_t first, const std::vector<std::uint32_t>& order) {
+  for_each_array(*this, [&](Role role, auto& array) {
+    const bool kept = role != Role::evaluated || !place.empty();
+    if (role != Role::scratch && kept) reorder(array, first, order);
+  });
+}
+
+template <class T>
+void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order) {
+  static_assert(sizeof(T) <= sizeof(FluidRow));
+  if (a.empty()) return;
+  T* data = a.data();
+  T* spare = reinterpret_cast<T*>(predicted.data());
+  const std::size_t n = order.size();
+#pragma omp parallel
+  {
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < n; ++k) spare[k] = data[order[k]];
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
+  }
+}
+
+void Particles::keep_start() {
+  for_each_array(
+      state_arrays, [](Role, auto& to, const auto& from) { copy_all(to, from); }, start, *this);
+}
+
+void Particles::restore_start() {
+  for_each_array(
+      state_arrays, [](Role, auto& to, const auto& from) { copy_all(to, from); }, *this, start);
+}
+
+void Particles::turn_rates() {
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < size(); ++i) {
+    const SumRow& r = rate[i];
+    if (!earlier.empty())
+      earlier[i] = {.ax = float(r.fx), .ay = float(r.fy), .az = float(r.fz), .compression = float(r.compression)};
+    rate[i] = SumRow{};
+  }
+}
+
+void Particles::gather(const Particles& whole) {
+  const std::size_t n = place.size();
+  const auto copies = [&](Role role, auto& mine, const auto& all) {
+    if (role == Role::rate || role == Role::index) return;
+    mine.resize(all.empty() ? 0 : n);
+    for (std::size_t k = 0; k < mine.size(); ++k) mine[k] = all[place[k]];
+  };
+  for_each_array(state_arrays, copies, *this, whole);
+  for_each_array(further_arrays, copies, *this, whole);
+  rate.resize(n);
+  earlier.resize(n);
+  other.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t i = place[k];
+    rate[k] = whole.other[i].rate;
+    earlier[k] = whole.other[i].earlier;
+    other[k] = {whole.rate[i], whole.earlier[i]};
+  }
+}
+
+void Particles::scatter(Particles& whole) const {
+  const auto put = [&](Role, const auto& mine, auto& all) {
+    for (std::size_t k = 0; k < mine.size(); ++k) all[place[k]] = mine[k];
+  };
+  for_each_array(state_arrays, put, *this, whole);
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const std::uint32_t i = place[k];
+    whole.other[i] = {rate[k], earlier[k]};
+    whole.rate[i] = other[k].rate;
+    whole.earlier[i] = other[k].earlier;
+  }
+}
+
+bool Particles::copy(std::string_view name, std::vector<double>& out) const {
+  bool found = false;
+  const auto from = [&](const auto& array, const auto& owner) {
+    constexpr std::size_t count = std::tuple_size_v<decltype(array.member)>;
+    if constexpr (requires { out[0] = double((owner.*array.member[0])[0]); }) {
+      if (name != array.name || array.role == Role::index) return;
+      found = true;
+      out.resize(count * size());
+      for (std::size_t a = 0; a < count; ++a) {
+        const auto& values = owner.*array.member[a];
+#pragma omp parallel for schedule(static)
+        for (std::size_t i = 0; i < size(); ++i) out[count * i + a] = double(values[i]);
+      }
+    }
+  };
+  std::apply([&](const auto&... array) { (from(array, *this), ...); }, state_arrays);
+  std::apply([&](const auto&... array) { (from(array, *this), ...); }, further_arrays);
+  return found;
+}
+
+void* Particles::second_rows() {
+  if (!gradient.empty()) return gradient.data();
+  if (!corrected.empty()) return corrected.data();
+  return viscosity.data();
+}
+
+std::size_t Particles::memory_bytes() const {
+  std::size_t bytes = 0;
+  const auto add = [&](Role, const auto& array) { bytes += array.capacity() * sizeof(array[0]); };
+  for_each_array(state_arrays, add, *this);
+  for_each_array(further_arrays, add, *this);
+  for_each_array(state_arrays, add, start);
+  return bytes;
+}
+
+}  // namespace undex::sph

@@ -1,0 +1,104 @@
+// Set-up of a fluid: particles in their places, walls, the first evaluation.
+#include <cmath>
+
+#include "sph_fluid/lattice.hpp"
+#include "sph_fluid/water/fluid_implementation.hpp"
+
+namespace undex::sph {
+namespace {
+
+/// Names are those of the library or of the scene's tables; changed copies have names of their own.
+bool same_material(const materials::Fluid& a, const materials::Fluid& b) {
+  return a.name == b.name && a.law.index() == b.law.index() && a.rho0 == b.rho0;
+}
+
+}  // namespace
+
+Fluid::Implementation::Implementation(const Settings& given) : Water(given), local_steps(*this) {
+  fill();
+  lifted = fall();
+  evaluation.pack_walls(all);
+  all.particles.make_room(evaluation.loops().second, settings.numerics.alpha,
+                          settings.numerics.integrator == Integrator::ssp_rk3);
+  evaluate(all, {.time = clock.time});
+  evaluation.signals().watch(settings, all);
+}
+
+void Fluid::Implementation::fill() {
+  std::vector<BodyParticles> bodies = fill_bodies(settings);
+  std::size_t n = 0;
+  for (const BodyParticles& body : bodies) n += body.position.size();
+  bool has_energy = false;
+  for (const Body& body : settings.bodies) has_energy = has_energy || materials::uses_energy(body.material.law);
+  Particles& particles = all.particles;
+  particles.resize(n, has_energy);
+  std::uint32_t at = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = settings.bodies[b];
+    Group group;
+    group.body = &settings.bodies[b];
+    group.begin = group.first_id = at;
+    group.spacing = body.spacing.value_or(settings.lattice.spacing);
+    group.h0 = group.h_max = smoothing_length(settings, group.spacing);
+    const double energy = start_energy(body), rho = start_density(body);
+    const Vec3 center = middle(body.shape.base, settings.dimension);
+    group.rest_density = rho;
+    std::optional<materials::HydrostaticColumn> column;
+    if (body.level) column = hydrostatic_column(body, settings.gravity, settings.dimension);
+    for (std::size_t k = 0; k < bodies[b].position.size(); ++k, ++at) {
+      const Vec3& x = bodies[b].position[k];
+      Vec3 velocity = body.velocity;
+      if (const Vec3 away = x - center; body.radial_velocity != 0.0) velocity += body.radial_velocity / away.norm() * away;
+      particles.x[at] = x[0];
+      particles.y[at] = x[1];
+      particles.z[at] = x[2];
+      particles.vx[at] = velocity[0];
+      particles.vy[at] = velocity[1];
+      particles.vz[at] = velocity[2];
+      particles.rho[at] = column ? column->density((x - *body.level).dot(settings.gravity) / settings.gravity.norm()) : rho;
+      particles.mass[at] = particles.rho[at] * bodies[b].volume[k];
+      if (has_energy) particles.energy[at] = energy;
+      particles.id[at] = at;
+      if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
+    }
+    group.end = at;
+    group.material = std::uint32_t(b);
+    for (std::size_t earlier = b; earlier-- > 0;)
+      if (same_material(settings.bodies[earlier].material, body.material)) group.material = std::uint32_t(earlier);
+    bodies[b] = {};  // its memory is wanted
+    if (body.start) lay_on(*body.start, group);
+    all.groups.push_back(std::move(group));
+  }
+}
+
+void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
+  Particles& p = all.particles;
+  const bool with_energy = materials::uses_energy(group.body->material.law);
+  double mass = 0, kinetic = 0, internal = 0;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    const double cell = p.mass[i] / p.rho[i];
+    const StartState state = start.state({p.x[i], p.y[i], p.z[i]}, group.spacing);
+    p.rho[i] = state.density;
+    p.mass[i] = state.density * cell;
+    p.vx[i] = state.velocity[0];
+    p.vy[i] = state.velocity[1];
+    p.vz[i] = state.velocity[2];
+    if (with_energy) p.energy[i] = state.energy;
+    mass += p.mass[i];
+    kinetic += 0.5 * p.mass[i] * state.velocity.squaredNorm();
+    internal += p.mass[i] * state.energy;
+  }
+  if (start.mass <= 0) return;
+  const double heavier = start.mass / mass;
+  // Velocities are means by mass and keep their momentum; scaled to the kinetic energy they would push too hard (by 1 %
+  // at a spacing of a tenth of the charge's radius).
+  const double heat = start.kinetic_energy - kinetic * heavier;
+  const double hotter = internal > 0 ? (start.internal_energy + heat) / (internal * heavier) : 1.0;
+  if (!with_energy) exchange.dissipated += heat;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    p.mass[i] *= heavier;
+    if (with_energy) p.energy[i] *= hotter;
+  }
+}
+
+}  // namespace undex::sph
