@@ -11,10 +11,14 @@
 namespace undex::scene {
 namespace {
 
-/// "`low`" in a cell; "|" would end it.
-std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
-  return text;
+/// The text in a cell: "|" would end it.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
 }
 
 /// 1e-5, not 1e-05.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/deformable_body.hpp"
-#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_solid/settings.hpp"
 
 namespace undex::solid {
