@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 
 #include "app/version.hpp"
@@ -13,6 +14,7 @@
 #include "output/files.hpp"
 #include "run/describe.hpp"
 #include "run/run.hpp"
+#include "scene/key_tables.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::app {
@@ -110,6 +112,14 @@ int print_materials() {
   for (const std::string& name : materials::fluid_names()) print_set(*materials::find_fluid(name));
   std::printf("Solids\n\n");
   for (const std::string& name : materials::solid_names()) print_set(*materials::find_solid(name));
+  return exit_done;
+}
+
+int write_keys(const fs::path& page) {
+  const std::string before = whole_text(page), after = scene::with_key_tables(before, page.string());
+  if (after == before) return exit_done;
+  std::ofstream file(page, std::ios::binary);
+  if (!(file << after).flush()) throw FileError(page.string() + ": cannot be written; check that you may write it");
   return exit_done;
 }
 

@@ -22,6 +22,7 @@ struct RunArguments : SceneArguments {
 int run_scene(const RunArguments& arguments);
 int check_scene(const SceneArguments& arguments);
 int print_materials();
+int write_keys(const std::filesystem::path& page);
 int list_scenes();
 int print_version(bool json);
 

@@ -104,6 +104,10 @@ int dispatch(int argc, char** argv) {
       "The study file: docs/studies.md");
 
   CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
+  std::string page;
+  CLI::App* keys =
+      program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/scene-file.md")->group("");
+  keys->add_option("page", page, "the page; its marks say which table goes where")->required();
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
   bool json = false;
@@ -129,6 +133,7 @@ int dispatch(int argc, char** argv) {
     return study::run_study(study_options);
   }
   if (*materials) return print_materials();
+  if (*keys) return write_keys(page);
   if (*list) return list_scenes();
   if (*version) return print_version(json);
   return exit_usage;

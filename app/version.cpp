@@ -1,6 +1,5 @@
 #include "app/version.hpp"
 
-#include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::app {

@@ -5,37 +5,140 @@
 #include <variant>
 #include <vector>
 
+#include "core/record.hpp"
 #include "core/vector.hpp"
 
 namespace undex {
 
 /// Axis-aligned box low..high [m]. In 1D and 2D scenes the unused axes are ignored.
 struct Box {
-  Vec3 low, high;
+  static constexpr const char* name = "box";
+  static constexpr const char* summary = "axis-aligned box; a rectangle in 2D, an interval in 1D";
+  static constexpr bool is_bounded = true, is_container = true;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 };
 /// Everything with low <= x[axis] <= high [m].
 struct Slab {
-  int axis;
-  double low, high;
+  static constexpr const char* name = "slab";
+  static constexpr const char* summary =
+      "everything between two planes across `axis`; unbounded, so only good to subtract (or in 1D)";
+  static constexpr bool is_bounded = false, is_container = false;
+  int axis = 0;
+  double low = 0, high = 1;
 };
 /// Ball [m] (disc in 2D, interval in 1D).
 struct Sphere {
-  Vec3 center;
-  double radius;
+  static constexpr const char* name = "sphere";
+  static constexpr const char* summary = "ball; a disc in 2D, an interval in 1D";
+  static constexpr bool is_bounded = true, is_container = false;
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
 };
 /// Solid cylinder along `axis` through `center` (its component along the axis is ignored), low..high along the axis [m].
 /// In 2D scenes with axis z it is a disc.
 struct Cylinder {
-  int axis;
-  Vec3 center;
-  double radius, low, high;
+  static constexpr const char* name = "cylinder";
+  static constexpr const char* summary = "along `axis`; in 2D a disc (axis \"z\") or a strip (axis \"x\", \"y\")";
+  static constexpr bool is_bounded = true, is_container = true;
+  int axis = 2;
+  Vec3 center = Vec3::Zero();
+  double radius = 0, low = 0, high = 1;
 };
 /// Cylinder of radius `outer` less one of radius `inner` [m].
 struct TubeShape {
-  int axis;
-  Vec3 center;
-  double inner, outer, low, high;
+  static constexpr const char* name = "tube";
+  static constexpr const char* summary = "a cylinder less a smaller one; in 2D a ring";
+  static constexpr bool is_bounded = true, is_container = false;
+  int axis = 2;
+  Vec3 center = Vec3::Zero();
+  double inner = 0, outer = 0, low = 0, high = 1;
 };
+
+template <class Visit>
+void describe_corners(Vec3& low, Vec3& high, Visit&& visit) {
+  visit(low, {.name = "low",
+              .unit = "m",
+              .range = Range::position(),
+              .needed = true,
+              .remedy = "give the lowest corner, e.g. low = [0, 0, 0]",
+              .meaning = "lowest corner"});
+  visit(high, {.name = "high",
+               .unit = "m",
+               .range = Range::position(),
+               .needed = true,
+               .remedy = "give the highest corner, e.g. high = [1, 1, 1]",
+               .greater = "low",
+               .meaning = "highest corner"});
+}
+template <class Visit>
+void describe(Box& box, Visit&& visit) {
+  describe_corners(box.low, box.high, visit);
+}
+/// The ends of a shape along its axis.
+template <class Visit>
+void describe_ends(int axis, double& low, double& high, Visit&& visit) {
+  constexpr const char* where = "say where it is, in m";
+  visit(low, {.name = "low",
+              .unit = "m",
+              .range = Range::position(),
+              .needed = true,
+              .remedy = where,
+              .form = Form::along,
+              .axis = axis,
+              .meaning = "lower end along `axis`"});
+  visit(high, {.name = "high",
+               .unit = "m",
+               .range = Range::position(),
+               .needed = true,
+               .remedy = where,
+               .greater = "low",
+               .form = Form::along,
+               .axis = axis,
+               .meaning = "upper end"});
+}
+template <class Visit>
+void describe(Slab& slab, Visit&& visit) {
+  visit(slab.axis, {.name = "axis",
+                    .needed = true,
+                    .remedy = "say across which axis it lies, e.g. axis = \"x\"",
+                    .form = Form::scene_axis,
+                    .meaning = "across which it lies"});
+  describe_ends(slab.axis, slab.low, slab.high, visit);
+}
+template <class Visit>
+void describe(Sphere& sphere, Visit&& visit) {
+  visit(sphere.center, {.name = "center", .unit = "m", .range = Range::position(), .meaning = "its middle"});
+  visit(sphere.radius, {.name = "radius", .unit = "m", .range = Range::length(), .needed = true, .remedy = "give it in m"});
+}
+/// The axis of a round shape.
+template <class Visit>
+void describe_axis(int& axis, Vec3& center, Visit&& visit) {
+  visit(axis, {.name = "axis", .form = Form::axis, .meaning = "along which it lies"});
+  visit(center, {.name = "center",
+                 .unit = "m",
+                 .range = Range::position(),
+                 .form = Form::across,
+                 .axis = axis,
+                 .meaning = "a point on the axis (its component along the axis is ignored)"});
+}
+template <class Visit>
+void describe(Cylinder& cylinder, Visit&& visit) {
+  describe_axis(cylinder.axis, cylinder.center, visit);
+  visit(cylinder.radius, {.name = "radius", .unit = "m", .range = Range::length(), .needed = true, .remedy = "give it in m"});
+  describe_ends(cylinder.axis, cylinder.low, cylinder.high, visit);
+}
+template <class Visit>
+void describe(TubeShape& tube, Visit&& visit) {
+  describe_axis(tube.axis, tube.center, visit);
+  visit(tube.inner, {.name = "inner_radius", .unit = "m", .range = Range::length(), .needed = true, .remedy = "give it in m"});
+  visit(tube.outer, {.name = "outer_radius",
+                     .unit = "m",
+                     .range = Range::length(),
+                     .needed = true,
+                     .remedy = "give it in m",
+                     .greater = "inner_radius"});
+  describe_ends(tube.axis, tube.low, tube.high, visit);
+}
 
 using Primitive = std::variant<Box, Slab, Sphere, Cylinder, TubeShape>;
 

@@ -8,12 +8,18 @@
 #include <variant>
 
 #include "sph_fluid/lattice.hpp"
-#include "sph_fluid/walls/wall_images.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::coupling {
 namespace {
 
 constexpr double added_mass_share = 0.3;  // of 1/omega: docs/equations.md, section 8
+
+/// Where the fluid slips and its scheme mirrors it, the surface itself; else dummy particles behind it.
+WallIndex add_wall(sph::Fluid& fluid, const WetWall& wall, bool free_slip) {
+  if (free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)) return fluid.add_wall(wall.mesh());
+  return fluid.add_wall(wall.particles(free_slip));
+}
 
 }  // namespace
 
@@ -57,9 +63,7 @@ Coupler::Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& s
             sph::kernel_support(fluid.settings().numerics.kernel) *
                 sph::smoothing_length(fluid.settings(), fluid.settings().lattice.spacing),
             fluid.settings().symmetry.axis),
-      wall_index_(fluid.add_moving_wall(settings.free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)
-                                            ? wall_.mesh()
-                                            : wall_.particles(settings.free_slip))),
+      wall_index_(add_wall(fluid, wall_, settings.free_slip)),
       added_mass_(added_mass_limit(fluid.settings(), structure)),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
@@ -75,12 +79,20 @@ void Coupler::show_wall(double ahead) {
     predicted_position_[n] = x[n] + ahead * (v[n] + 0.5 * ahead * a[n]);
     predicted_velocity_[n] = v[n] + ahead * a[n];
   }
-  wall_.move(predicted_position_, predicted_velocity_, fluid_.moving_wall(wall_index_));
+  std::visit([&](auto index) { wall_.move(predicted_position_, predicted_velocity_, fluid_.wall(index)); }, wall_index_);
 }
 
 sph::StepLimit Coupler::step_limit() {
   const sph::StepLimit limit = fluid_.step_limit();
   return added_mass_.step < limit.step && !fluid_.settings().numerics.fixed_step ? added_mass_ : limit;
+}
+
+template <class Wall>
+void Coupler::collect_impulse(Wall& wall) {
+  ledger_.impulse_given = std::accumulate(wall.impulse.begin(), wall.impulse.end(), ledger_.impulse_given);
+  for (const Vec3& impulse : wall.impulse) ledger_.impulse_exchanged += impulse.norm();
+  std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
+  wall_.collect_impulse(wall, nodal_impulse_);
 }
 
 Coupler::Window Coupler::advance(double end) {
@@ -102,13 +114,9 @@ Coupler::Window Coupler::advance(double end) {
   } while (fluid_.time() < target * (1 - 1e-12));
   window.held_by_structure = window.fluid_steps > 1;
 
-  sph::MovingWall& wall = fluid_.moving_wall(wall_index_);
   {
     const auto timer = timers_.measure("coupling");
-    ledger_.impulse_given = std::accumulate(wall.impulse.begin(), wall.impulse.end(), ledger_.impulse_given);
-    for (const Vec3& impulse : wall.impulse) ledger_.impulse_exchanged += impulse.norm();
-    std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
-    wall_.hand_over(wall, nodal_impulse_);
+    std::visit([&](auto index) { collect_impulse(fluid_.wall(index)); }, wall_index_);
     ledger_.impulse_received = std::accumulate(nodal_impulse_.begin(), nodal_impulse_.end(), ledger_.impulse_received);
   }
   structure_.advance(fluid_.time(), nodal_impulse_);

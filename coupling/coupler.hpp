@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "core/deformable_body.hpp"
 #include "coupling/settings.hpp"
@@ -32,6 +33,9 @@ struct InterfaceLedger {
 /// window. `criterion` is "added mass", `position` the node's; the step is infinite where there is no liquid.
 sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure);
 
+/// A wall of the fluid, of either kind.
+using WallIndex = std::variant<sph::MirrorIndex, sph::LinedIndex>;
+
 class Coupler {
  public:
   /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
@@ -52,13 +56,16 @@ class Coupler {
 
  private:
   void show_wall(double ahead);
+  /// Books what the wall has received and gives it to the nodes.
+  template <class Wall>
+  void collect_impulse(Wall& wall);
   sph::StepLimit step_limit();
 
   sph::Fluid& fluid_;
   DeformableBody& structure_;
   Settings settings_;
   WetWall wall_;
-  int wall_index_;
+  WallIndex wall_index_;
   sph::StepLimit added_mass_;
   PassTimers timers_;
   InterfaceLedger ledger_;

@@ -6,7 +6,7 @@
 namespace undex::coupling {
 
 ParticleSystem::ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip)
-    : fluid_(fluid), solids_(solids), wall_(fluid.add_moving_wall(solids.wet_wall(free_slip))) {}
+    : fluid_(fluid), solids_(solids), wall_(fluid.add_wall(solids.wet_wall(free_slip))) {}
 
 ParticleSystem::Step ParticleSystem::advance(double end) {
   Step step;
@@ -23,7 +23,7 @@ ParticleSystem::Step ParticleSystem::advance(double end) {
   solids_.advance(fluid_.time() + step.step);
   step.solid_steps = solids_.steps() - before;
 
-  sph::MovingWall& wall = fluid_.moving_wall(wall_);
+  sph::LinedWall& wall = fluid_.wall(wall_);
   solids_.move_wall(wall, 0.0);
   // The second half of the kick, as far as it is known.
   for (std::size_t k = 0; k < force.size(); ++k) wall.velocity[k] += impulse_[wet[k]] / solids_.masses()[wet[k]];

@@ -25,7 +25,7 @@ class ParticleSystem {
  private:
   sph::Fluid& fluid_;
   solid::Solids& solids_;
-  int wall_;
+  sph::LinedIndex wall_;
   std::vector<Vec3> impulse_;  ///< [N s], per solid particle
 };
 

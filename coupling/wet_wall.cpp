@@ -32,16 +32,16 @@ WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const 
   }
 }
 
-sph::MovingWall WetWall::mesh() const {
-  sph::MovingWall wall;
-  wall.mesh = surface_.faces;
+sph::MirrorWall WetWall::mesh() const {
+  sph::MirrorWall wall;
+  wall.faces = surface_.faces;
   wall.position = surface_.nodes;
   wall.velocity.assign(surface_.nodes.size(), Vec3::Zero());
   return wall;
 }
 
-sph::MovingWall WetWall::particles(bool free_slip) const {
-  sph::MovingWall wall;
+sph::LinedWall WetWall::particles(bool free_slip) const {
+  sph::LinedWall wall;
   wall.free_slip = free_slip;
   wall.volume = volume_;
   for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(points_.size(), Vec3::Zero());
@@ -50,12 +50,12 @@ sph::MovingWall WetWall::particles(bool free_slip) const {
   return wall;
 }
 
-void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const {
-  if (!wall.mesh.empty()) {
-    wall.position.assign(position.begin(), position.end());
-    wall.velocity.assign(velocity.begin(), velocity.end());
-    return;
-  }
+void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MirrorWall& wall) const {
+  wall.position.assign(position.begin(), position.end());
+  wall.velocity.assign(velocity.begin(), velocity.end());
+}
+
+void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::LinedWall& wall) const {
   const std::vector<Vec3> normal = node_normals(surface_.faces, position, symmetry_);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -68,11 +68,11 @@ void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocit
   }
 }
 
-void WetWall::hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const {
-  if (!wall.mesh.empty()) {
-    for (std::size_t n = 0; n < nodal_impulse.size(); ++n) nodal_impulse[n] += std::exchange(wall.impulse[n], Vec3::Zero());
-    return;
-  }
+void WetWall::collect_impulse(sph::MirrorWall& wall, std::vector<Vec3>& nodal_impulse) const {
+  for (std::size_t n = 0; n < nodal_impulse.size(); ++n) nodal_impulse[n] += std::exchange(wall.impulse[n], Vec3::Zero());
+}
+
+void WetWall::collect_impulse(sph::LinedWall& wall, std::vector<Vec3>& nodal_impulse) const {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Point& point = points_[k];
     for (int c = 0; c < 4; ++c) nodal_impulse[surface_.faces[point.face][c]] += point.weight[c] * wall.impulse[k];

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/surface.hpp"
-#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
 
 namespace undex::coupling {
 
@@ -24,17 +24,19 @@ class WetWall {
   std::size_t layer_count() const { return layers_; }
 
   /// The surface itself at its reference position, at rest, for the fluid to be mirrored in.
-  sph::MovingWall mesh() const;
+  sph::MirrorWall mesh() const;
   /// Dummy particles at the surface's reference position, at rest.
-  sph::MovingWall particles(bool free_slip) const;
+  sph::LinedWall particles(bool free_slip) const;
 
-  /// Places `wall`, of either kind, where the surface's nodes are. Velocity of a dummy particle is that of the surface point
+  /// Places `wall` where the surface's nodes are. Velocity of a dummy particle is that of the surface point
   /// below the particle: beneath a rotating surface the tangential part lacks depth times spin, the normal part (all that free
   /// slip sees) is exact.
-  void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MovingWall& wall) const;
+  void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MirrorWall& wall) const;
+  void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::LinedWall& wall) const;
 
   /// Adds the wall's impulses [N s] to the nodes by the same weights, and sets the wall's to zero.
-  void hand_over(sph::MovingWall& wall, std::vector<Vec3>& nodal_impulse) const;
+  void collect_impulse(sph::MirrorWall& wall, std::vector<Vec3>& nodal_impulse) const;
+  void collect_impulse(sph::LinedWall& wall, std::vector<Vec3>& nodal_impulse) const;
 
  private:
   struct Point {

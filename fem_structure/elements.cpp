@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "fem_structure/pressure_step.hpp"
+
 namespace undex::fem {
 namespace {
 
@@ -99,39 +101,62 @@ Elements::Elements(const Grid& grid, const materials::Solid& material, double li
   find_first_steps(grid);
 }
 
+/// What the nodes' displacement does to a cell over a step.
+struct Elements::Step {
+  Lanes gradient[3][3];         // of the displacement, in the midpoint configuration
+  Lanes inverse[3][3], weight;  // of the Jacobian, and of the quadrature, at the end
+  double volume = 0.0;          // at the end [m^3]
+
+  /// False where the cell has turned inside out on the way, or is not finite.
+  bool find(const CellVectors& x, const CellVectors& u, const ReferenceCell& reference) {
+    Lanes jacobian[3][3], change[3][3], middle[3][3], determinant;
+    contract(x, reference, jacobian);
+    contract(u, reference, change);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int q = 0; q < 8; ++q) middle[i][j][q] = jacobian[i][j][q] - 0.5 * change[i][j][q];
+    invert(middle, inverse, determinant);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (int q = 0; q < 8; ++q)
+          gradient[i][j][q] =
+              change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] + change[i][2][q] * inverse[2][j][q];
+    bool upright = true;
+    for (int q = 0; q < 8; ++q) upright &= determinant[q] > 0.0;
+    invert(jacobian, inverse, determinant);
+    for (int q = 0; q < 8; ++q) {
+      upright &= determinant[q] > 0.0;  // false for NaN
+      weight[q] = reference.weight[q] * determinant[q];
+      volume += weight[q];
+    }
+    return upright && std::isfinite(volume);
+  }
+};
+
+/// What its points gave: works [J], and how many have not failed.
+struct Elements::Work {
+  double deviatoric = 0.0, plastic = 0.0, most_strain = 0.0;
+  double intact_before = 1.0, intact = 1.0;  // share of the points
+};
+
 bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements, double dt) {
-  double x[3][8], u[3][8];
+  CellVectors x, u, force;
   collect(positions, cells_[c], x);
   collect(displacements, cells_[c], u);
+  Step step;
+  if (!step.find(x, u, reference_)) return false;
+  Lanes stress[6];
+  Work work = advance_points(c, step, dt, stress);
+  advance_volume(c, step.volume, dt, work, x);
+  const double total_pressure = pressure_[c] + viscous_pressure_[c];
+  for (int k = 0; k < 3; ++k)
+    for (int q = 0; q < 8; ++q) stress[k][q] -= total_pressure;
+  spread(stress, step.inverse, step.weight, reference_, force);
+  return put_forces(c, force);
+}
 
-  // Displacement gradient of the step in its midpoint configuration.
-  Lanes jacobian[3][3], change[3][3], middle[3][3], inverse[3][3], determinant, gradient[3][3];
-  contract(x, reference_, jacobian);
-  contract(u, reference_, change);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      for (int q = 0; q < 8; ++q) middle[i][j][q] = jacobian[i][j][q] - 0.5 * change[i][j][q];
-  invert(middle, inverse, determinant);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      for (int q = 0; q < 8; ++q)
-        gradient[i][j][q] =
-            change[i][0][q] * inverse[0][j][q] + change[i][1][q] * inverse[1][j][q] + change[i][2][q] * inverse[2][j][q];
-  bool sound_geometry = true;
-  for (int q = 0; q < 8; ++q) sound_geometry &= determinant[q] > 0.0;
-
-  // New geometry.
-  invert(jacobian, inverse, determinant);
-  Lanes weight;
-  double volume = 0.0;
-  for (int q = 0; q < 8; ++q) {
-    sound_geometry &= determinant[q] > 0.0;  // false for NaN
-    weight[q] = reference_.weight[q] * determinant[q];
-    volume += weight[q];
-  }
-  if (!sound_geometry || !std::isfinite(volume)) return false;
-
-  // Stress deviator at the quadrature points.
+/// Stress deviators at the quadrature points.
+Elements::Work Elements::advance_points(std::size_t c, const Step& step, double dt, Lanes (&stress)[6]) {
   materials::SolidPoints points;
   materials::SolidStep done;
   Lanes specific_volume, start_pressure;
@@ -140,76 +165,70 @@ bool Elements::advance_cell(std::size_t c, std::span<const Vec3> positions, std:
     for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][at];
     points.plastic_strain[q] = plastic_strain_[at];
     points.temperature[q] = temperature_[at];
-    specific_volume[q] = volume / cell_mass_[c];
+    specific_volume[q] = step.volume / cell_mass_[c];
     start_pressure[q] = pressure_[c];
   }
+  Work work;
   const bool can_fail = !damage_.empty();
-  double intact_before = 1.0, intact = 1.0;  // share of the points
   if (can_fail) {
     std::copy_n(&damage_[8 * c], 8, points.damage);
-    intact_before = intact_share(points.damage);
+    work.intact_before = intact_share(points.damage);
   }
-  materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
+  materials::advance_deviator(material_, step.gradient, specific_volume, start_pressure, dt, points, done);
   if (can_fail) {
     std::copy_n(points.damage, 8, &damage_[8 * c]);
-    intact = intact_share(points.damage);
+    work.intact = intact_share(points.damage);
   }
-  double deviatoric_work = 0.0, plastic_work = 0.0, most_strain = 0.0;
   for (int q = 0; q < 8; ++q) {
     const std::size_t at = 8 * c + q;
-    most_strain = std::max(most_strain, done.strain_norm[q]);
-    deviatoric_work += 0.5 * (weight_[at] * done.old_work[q] + weight[q] * done.new_work[q]);
-    plastic_work += 0.5 * (weight_[at] + weight[q]) * done.plastic_work[q];
-    for (int k = 0; k < 6; ++k) deviator_[k][at] = points.deviator[k][q];
+    const double weight = step.weight[q];
+    work.most_strain = std::max(work.most_strain, done.strain_norm[q]);
+    work.deviatoric += 0.5 * (weight_[at] * done.old_work[q] + weight * done.new_work[q]);
+    work.plastic += 0.5 * (weight_[at] + weight) * done.plastic_work[q];
+    for (int k = 0; k < 6; ++k) stress[k][q] = deviator_[k][at] = points.deviator[k][q];
     plastic_strain_[at] = points.plastic_strain[q];
     temperature_[at] = points.temperature[q];
-    weight_[at] = weight[q];
+    weight_[at] = weight;
   }
+  return work;
+}
 
-  // Pressure from the mean density; the work of this very pressure enters the energy it depends on: one correction.
+/// Pressure from the mean density, the cell's energies and its next stable step.
+void Elements::advance_volume(std::size_t c, double volume, double dt, Work work, const CellVectors& x) {
   const double mass = cell_mass_[c], density = mass / volume, opened = volume - volume_[c];
   const double old_pressure = pressure_[c], old_viscous = viscous_pressure_[c];
   const double rate = opened / (0.5 * (volume + volume_[c]) * dt);
-  auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / mass);
-  const double shear = material_.shear_modulus;
-  const double sound = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * shear / density);
+  const auto guess = materials::evaluate(material_.pressure, material_.rho0, density, energy_[c] / mass);
+  const double sound = std::sqrt(guess.bulk_sound * guess.bulk_sound + 4.0 / 3.0 * material_.shear_modulus / density);
   viscous_pressure_[c] = viscous_pressure(c, rate, density, sound);
   const double viscous_work = -0.5 * (old_viscous + viscous_pressure_[c]) * opened;
-  const double other_work = energy_[c] + deviatoric_work + viscous_work;
-  const auto carried = [&](double pressure) {
-    return pressure < 0.0 ? intact * materials::carried_pressure(material_, pressure, 0.0) : pressure;
-  };
-  double pressure = carried(state.pressure);
-  for (int correction = 0; correction < 2; ++correction) {
-    state = materials::evaluate(material_.pressure, material_.rho0, density,
-                                (other_work - 0.5 * (old_pressure + pressure) * opened) / mass);
-    pressure = carried(state.pressure);
-  }
+  const double other_work = energy_[c] + work.deviatoric + viscous_work;
+  auto [pressure, state] = carried_pressure(material_,
+                                            {.density = density,
+                                             .mass = mass,
+                                             .opened = opened,
+                                             .other_energy = other_work,
+                                             .old_pressure = old_pressure,
+                                             .intact = work.intact},
+                                            guess);
   if (materials::spalls(material_, state.pressure)) {
     std::fill_n(&damage_[8 * c], 8, materials::failed);  // the deviator goes in the next step
-    intact = pressure = 0.0;
+    work.intact = pressure = 0.0;
   }
   const double pressure_work = -0.5 * (old_pressure + pressure) * opened;
-  if (intact < intact_before && old_pressure < 0.0) {
+  if (work.intact < work.intact_before && old_pressure < 0.0) {
     // What the failed points had stored in tension, and what the old pressure added, is spent (to first order in strain).
-    const double stored = 0.5 * old_pressure * old_pressure / (intact_before * density * state.bulk_sound * state.bulk_sound);
-    plastic_work += (1.0 - intact / intact_before) * (stored * volume_[c] - 0.5 * old_pressure * opened);
+    const double stored =
+        0.5 * old_pressure * old_pressure / (work.intact_before * density * state.bulk_sound * state.bulk_sound);
+    work.plastic += (1.0 - work.intact / work.intact_before) * (stored * volume_[c] - 0.5 * old_pressure * opened);
   }
   pressure_[c] = pressure;
   energy_[c] = other_work + pressure_work;
   volume_[c] = volume;
-  elastic_[c] += deviatoric_work - plastic_work + pressure_work;
-  plastic_[c] += plastic_work;
+  elastic_[c] += work.deviatoric - work.plastic + pressure_work;
+  plastic_[c] += work.plastic;
   viscous_[c] += viscous_work;
-
-  follow_frequency(c, x, most_strain, sound, density * state.bulk_sound * state.bulk_sound);
-
-  const double total_pressure = pressure + viscous_pressure_[c];
-  for (int k = 0; k < 3; ++k)
-    for (int q = 0; q < 8; ++q) points.deviator[k][q] -= total_pressure;
-  double force[3][8];
-  spread(points.deviator, inverse, weight, reference_, force);
-  return put_forces(c, force);
+  follow_frequency(c, x, work.most_strain, sound, density * state.bulk_sound * state.bulk_sound);
 }
 
 void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const {

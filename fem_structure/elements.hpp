@@ -37,9 +37,15 @@ class Elements final : public ElementSet {
   std::size_t memory_bytes() const override;
 
  private:
+  using Lanes = materials::EightPoints;  ///< one value per quadrature point
+  struct Step;
+  struct Work;
+
   bool advance_cell(std::size_t cell, std::span<const Vec3> x, std::span<const Vec3> u, double dt) override;
   void linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const override;
   Moduli moduli(std::size_t cell) const override;
+  Work advance_points(std::size_t cell, const Step& step, double dt, Lanes (&stress)[6]);
+  void advance_volume(std::size_t cell, double volume, double dt, Work work, const CellVectors& x);
 
   ReferenceCell reference_;
   // State, per quadrature point.

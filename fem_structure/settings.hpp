@@ -3,48 +3,26 @@
 
 #include <array>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "core/record.hpp"
 #include "core/rigid_plane.hpp"
 #include "core/vector.hpp"
+#include "fem_structure/meshes.hpp"
 #include "materials/solid.hpp"
 
 namespace undex::fem {
-
-/// Tube (or ring) about an axis. Every count is that of the full body: with symmetry planes that cut it, only the kept
-/// part is meshed, with its share of the cells. Faces: "inner", "outer", "low", "high"; a face that a symmetry plane
-/// cuts away has no name left.
-struct TubeMesh {
-  int axis = 2;
-  Vec3 center = Vec3::Zero();                                    ///< a point on the axis [m]
-  double inner_radius = 0, outer_radius = 0, low = 0, high = 0;  ///< [m]
-  int cells_through = 2, cells_around = 64, cells_along = 64;
-};
-/// Solid round bar about an axis, a square core of cells inside rings. `cells_radial` counts the cells from the axis to
-/// the rim (at least 2; the full turn then has 4 cells per core cell side). Faces: "side", "low", "high".
-struct RodMesh {
-  int axis = 2;
-  Vec3 center = Vec3::Zero();            ///< a point on the axis [m]
-  double radius = 0, low = 0, high = 0;  ///< [m]
-  int cells_radial = 6, cells_along = 32;
-};
-/// Box of cells. Faces: "x_low", "x_high", "y_low", ...
-struct PlateMesh {
-  Vec3 low, high;  ///< [m]
-  std::array<int, 3> cells{1, 1, 1};
-};
-/// Hexahedral mesh read by gmsh's .msh; faces are named by their physical (boundary) id as text: "1", "2", ...
-struct GmshMesh {
-  std::string path;
-};
-using Mesh = std::variant<TubeMesh, PlateMesh, GmshMesh, RodMesh>;
 
 /// Nodes of a named face whose marked velocity components stay zero.
 struct Support {
   std::string face;
   std::array<bool, 3> fixed{true, true, true};
 };
+template <class Visit>
+void describe(Support& support, Visit&& visit) {
+  visit(support.face, {.name = "face", .needed = true, .remedy = "name the face that is held", .values = "a face"});
+  visit(support.fixed, {.name = "fixed", .meaning = "components of the motion that are held"});
+}
 
 /// Uniform pressure history on a face, piecewise linear in time (a structure alone under a prescribed load).
 struct PressureLoad {
@@ -52,11 +30,17 @@ struct PressureLoad {
   std::vector<double> time;      ///< [s], increasing
   std::vector<double> pressure;  ///< [Pa]; held constant outside the table
 };
-
-enum class ElementKind {
-  hexahedron,  ///< full integration, one pressure a cell: for solid bodies
-  shell        ///< solid shell for thin walls, one cell through them (tube or plate)
-};
+template <class Visit>
+void describe(PressureLoad& load, Visit&& visit) {
+  visit(load.face, {.name = "face", .needed = true, .remedy = "name the loaded face", .values = "a face"});
+  visit(load.time, {.name = "time", .unit = "s", .needed = true, .remedy = "give the times in s", .values = "increasing list"});
+  visit(load.pressure, {.name = "pressure",
+                        .unit = "Pa",
+                        .needed = true,
+                        .remedy = "give the pressures in Pa",
+                        .values = "list, as many",
+                        .meaning = "linear between the times, constant outside them"});
+}
 
 struct Settings {
   std::string name = "structure";
@@ -76,5 +60,44 @@ struct Settings {
   double linear_viscosity = 0.06;        ///< bulk viscosity against ringing of shocks, on compression only
   double quadratic_viscosity = 1.2;
 };
+template <class Visit>
+void describe(Settings& structure, Visit&& visit) {
+  visit(structure.name, {.name = "name", .form = Form::name, .meaning = "in messages"});
+  visit(ByHand{}, {.name = "shape",
+                   .needed = true,
+                   .remedy = "e.g. shape = {type = \"tube\", inner_radius = 0.04, outer_radius = 0.05, low = -0.1, high = 0.1}",
+                   .values = "see below",
+                   .meaning = "geometry, of the whole body"});
+  visit(ByHand{},
+        {.name = "cells", .rule = "from `cell_size`", .values = "see below", .meaning = "counts of cells, of the whole body"});
+  visit(ByHand{}, {.name = "cell_size",
+                   .unit = "m",
+                   .range = Range::length(),
+                   .rule = "half the thickness, a shell's whole; a sixth of a rod's radius",
+                   .meaning = "largest size of a cell, in place of `cells`; a shell has one through the wall all the same"});
+  visit(structure.element,
+        {.name = "element",
+         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent)"});
+  visit(structure.points_through,
+        {.name = "points_through",
+         .range = Range::between(2, 10),
+         .meaning = "of shells: Gauss points through the thickness of a cell; take 5 where plastic bending "
+                    "counts"});
+  visit(ByHand{}, {.name = "material",
+                   .needed = true,
+                   .remedy = "e.g. material = \"al-5083-h116\" ('undex materials' lists them)",
+                   .values = "a solid",
+                   .meaning = "see [materials](#materials)"});
+  visit(ByHand{}, {.name = "supports", .rule = "[]", .values = "list of tables", .meaning = "held faces"});
+  visit(structure.wet_faces,
+        {.name = "wet", .values = "list of faces", .meaning = "those that the water touches; needed where there are bodies"});
+  visit(ByHand{}, {.name = "loads", .rule = "[]", .values = "list of tables", .meaning = "pressure histories on faces"});
+  visit(structure.initial_velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
+  visit(structure.courant, {.name = "courant", .range = Range::above(0, 1), .meaning = "share of the computed stable step"});
+  visit(structure.linear_viscosity,
+        {.name = "linear_viscosity", .range = Range::between(0, 10), .meaning = "bulk viscosity against ringing"});
+  visit(structure.quadratic_viscosity,
+        {.name = "quadratic_viscosity", .range = Range::between(0, 100), .meaning = "and its quadratic term"});
+}
 
 }  // namespace undex::fem

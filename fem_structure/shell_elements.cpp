@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem_structure/pressure_step.hpp"
+
 namespace undex::fem {
 namespace {
 
@@ -405,6 +407,15 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
   }
 }
 
+/// What a step gave to the layers of a cell, and to it as a whole: works in [J].
+struct ShellElements::Work {
+  double deviatoric[2 * most_batches] = {};                             // of each layer
+  double volume[2 * most_batches] = {}, opened[2 * most_batches] = {};  // halfway, and its gain [m^3]
+  double intact[2 * most_batches];                                      // share of the points that have not failed
+  double plastic = 0.0, most_strain = 0.0;
+  Work() { std::fill_n(intact, 2 * most_batches, 1.0); }
+};
+
 bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements, double dt) {
   CellVectors x_cell, u_cell, x, u;
   collect(positions, cells_[c], x_cell);
@@ -420,103 +431,94 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
   find_strain(halfway, change, geometry, strain);
   const double amplitude = enhance(geometry, {bulk_[c], 2.0 * material_.shear_modulus}, residual_[c], strain);
 
-  // Stress deviators; the spin is that of the displacement itself.
-  double deviatoric_work[2 * most_batches] = {}, layer_weight[2 * most_batches] = {}, opened[2 * most_batches] = {};
-  double plastic_work = 0.0, most_strain = 0.0, volume = 0.0, all_opened = 0.0;
-  double intact[2 * most_batches];  // share of a layer's points that have not failed
-  std::fill_n(intact, 2 * most_batches, 1.0);
-  for (int b = 0; b < batches_; ++b) {
-    const auto& inverse = geometry.inverse[b];
-    Lanes gradient[3][3], specific_volume;
-    Lanes slope[3][3];
+  Work work;
+  for (int b = 0; b < batches_; ++b) advance_points(c, b, change, geometry, end, strain[b], dt, work, stress[b]);
+  if (!advance_layers(c, dt, amplitude, work, end, x_cell, stress)) return false;
+  for (int b = 0; b < batches_; ++b)
     for (int i = 0; i < 3; ++i)
-      for (int q = 0; q < 8; ++q) {
-        const double u1 = change.m_xi[i][q] + geometry.zeta[b][q] * change.d_xi[i][q];
-        const double u2 = change.m_eta[i][q] + geometry.zeta[b][q] * change.d_eta[i][q];
-        for (int j = 0; j < 3; ++j)
-          slope[i][j][q] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
-      }
-    Lanes start_pressure;
-    const int filled = std::min(8, 4 * (layers_ - 2 * b));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        for (int q = 0; q < 8; ++q) gradient[i][j][q] = strain[b][component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
-        for (int q = filled; q < 8; ++q) gradient[i][j][q] = 0.0;
-      }
-    for (int q = 0; q < 8; ++q) {
-      const int layer = 2 * b + q / 4;
-      specific_volume[q] = dilatation_[2 * batches_ * c + layer] / material_.rho0;
-      layer_weight[layer] += geometry.weight[b][q];
-      opened[layer] += geometry.weight[b][q] * (strain[b][0][q] + strain[b][1][q] + strain[b][2][q]);
-    }
-    materials::SolidPoints points;
-    materials::SolidStep done;
-    const std::size_t first = at(c, 8 * b);
-    for (int q = 0; q < 8; ++q) {
-      for (int k = 0; k < 6; ++k) points.deviator[k][q] = deviator_[k][first + q];
-      points.plastic_strain[q] = plastic_strain_[first + q];
-      points.temperature[q] = temperature_[first + q];
-      start_pressure[q] = pressure_[2 * batches_ * c + 2 * b + q / 4];
-    }
-    if (!damage_.empty()) std::copy_n(&damage_[first], 8, points.damage);
-    materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
-    if (!damage_.empty()) {
-      std::copy_n(points.damage, 8, &damage_[first]);
-      for (int q = 0; q < 8; ++q) intact[2 * b + q / 4] -= 0.25 * (points.damage[q] >= materials::failed);
-    }
-    for (int q = 0; q < 8; ++q) {
-      double& weight = weight_[first + q];
-      most_strain = std::max(most_strain, done.strain_norm[q]);
-      deviatoric_work[2 * b + q / 4] += 0.5 * (weight * done.old_work[q] + end.weight[b][q] * done.new_work[q]);
-      plastic_work += 0.5 * (weight + end.weight[b][q]) * done.plastic_work[q];
-      for (int k = 0; k < 6; ++k) stress[b][k][q] = deviator_[k][first + q] = points.deviator[k][q];
-      plastic_strain_[first + q] = points.plastic_strain[q];
-      temperature_[first + q] = points.temperature[q];
-      weight = end.weight[b][q];
-    }
-  }
+      for (int q = 0; q < 8; ++q) stress[b][i][q] -= viscous_pressure_[c];
+  CellVectors local, force;
+  spread(now, end, stress, local);
+  turn_out(local, force);
+  return put_forces(c, force) && std::isfinite(bulk_[c] + residual_[c]);
+}
 
+/// The strain of a batch with the spin of the displacement itself. An empty layer has none.
+void ShellElements::find_gradient(int b, const Surface& change, const Geometry& geometry, const Lanes (&strain)[6],
+                                  Lanes (&gradient)[3][3]) const {
+  const auto& inverse = geometry.inverse[b];
+  Lanes slope[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int q = 0; q < 8; ++q) {
+      const double u1 = change.m_xi[i][q] + geometry.zeta[b][q] * change.d_xi[i][q];
+      const double u2 = change.m_eta[i][q] + geometry.zeta[b][q] * change.d_eta[i][q];
+      for (int j = 0; j < 3; ++j)
+        slope[i][j][q] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
+    }
+  const int filled = std::min(8, 4 * (layers_ - 2 * b));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      for (int q = 0; q < 8; ++q) gradient[i][j][q] = strain[component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
+      for (int q = filled; q < 8; ++q) gradient[i][j][q] = 0.0;
+    }
+}
+
+/// Stress deviators of a batch of points.
+void ShellElements::advance_points(std::size_t c, int b, const Surface& change, const Geometry& geometry, const Geometry& end,
+                                   const Lanes (&strain)[6], double dt, Work& work, Lanes (&stress)[6]) {
+  Lanes gradient[3][3], specific_volume, start_pressure;
+  find_gradient(b, change, geometry, strain, gradient);
+  materials::SolidPoints points;
+  materials::SolidStep done;
+  const std::size_t first = at(c, 8 * b);
+  for (int q = 0; q < 8; ++q) {
+    const int layer = 2 * b + q / 4;
+    const std::size_t k = 2 * batches_ * c + layer;
+    specific_volume[q] = dilatation_[k] / material_.rho0;
+    start_pressure[q] = pressure_[k];
+    work.volume[layer] += geometry.weight[b][q];
+    work.opened[layer] += geometry.weight[b][q] * (strain[0][q] + strain[1][q] + strain[2][q]);
+    for (int part = 0; part < 6; ++part) points.deviator[part][q] = deviator_[part][first + q];
+    points.plastic_strain[q] = plastic_strain_[first + q];
+    points.temperature[q] = temperature_[first + q];
+  }
+  if (!damage_.empty()) std::copy_n(&damage_[first], 8, points.damage);
+  materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
+  if (!damage_.empty()) {
+    std::copy_n(points.damage, 8, &damage_[first]);
+    for (int q = 0; q < 8; ++q) work.intact[2 * b + q / 4] -= 0.25 * (points.damage[q] >= materials::failed);
+  }
+  for (int q = 0; q < 8; ++q) {
+    double& weight = weight_[first + q];
+    work.most_strain = std::max(work.most_strain, done.strain_norm[q]);
+    work.deviatoric[2 * b + q / 4] += 0.5 * (weight * done.old_work[q] + end.weight[b][q] * done.new_work[q]);
+    work.plastic += 0.5 * (weight + end.weight[b][q]) * done.plastic_work[q];
+    for (int k = 0; k < 6; ++k) stress[k][q] = deviator_[k][first + q] = points.deviator[k][q];
+    plastic_strain_[first + q] = points.plastic_strain[q];
+    temperature_[first + q] = points.temperature[q];
+    weight = end.weight[b][q];
+  }
+}
+
+/// Pressures of the layers, the cell's energies and its next stable step. False where a layer has swollen or shrunk by its own
+/// volume.
+bool ShellElements::advance_layers(std::size_t c, double dt, double amplitude, const Work& work, const Geometry& end,
+                                   const CellVectors& x, Lanes (*stress)[6]) {
   // Bulk viscosity: of the whole cell, so that bending is not damped.
+  double volume = 0.0, opened = 0.0;
   for (int layer = 0; layer < layers_; ++layer) {
-    volume += layer_weight[layer];
-    all_opened += opened[layer];
+    volume += work.volume[layer];
+    opened += work.opened[layer];
   }
   const double shear = material_.shear_modulus, mean_density = cell_mass_[c] / volume;
   const double old_viscous = viscous_pressure_[c], old_sound = std::sqrt((bulk_[c] + 4.0 / 3.0 * shear) / mean_density);
-  viscous_pressure_[c] = viscous_pressure(c, all_opened / (volume * dt), mean_density, old_sound);
+  viscous_pressure_[c] = viscous_pressure(c, opened / (volume * dt), mean_density, old_sound);
 
-  // Pressure of each layer from its mean dilatation; the work of this very pressure enters the energy it depends on.
   double stored = 0.0, bulk = 0.0;
   for (int layer = 0; layer < layers_; ++layer) {
-    const std::size_t k = 2 * batches_ * c + layer;
-    const double step = opened[layer] / layer_weight[layer], old_dilatation = dilatation_[k], old_pressure = pressure_[k];
-    if (!(std::abs(step) < 1.0)) return false;
-    dilatation_[k] *= (1.0 + 0.5 * step) / (1.0 - 0.5 * step);
-    const double density = material_.rho0 / dilatation_[k],
-                 reference_volume = layer_weight[layer] / (0.5 * (old_dilatation + dilatation_[k]));
-    const double swelling = opened[layer] / reference_volume;  // per reference volume, as the energies below
-    const double other =
-        energy_[k] + deviatoric_work[layer] / reference_volume - 0.5 * (old_viscous + viscous_pressure_[c]) * swelling;
-    auto state = materials::evaluate(material_.pressure, material_.rho0, density, energy_[k] / material_.rho0);
-    // Failed points carry no tension, as in the hexahedron.
-    const auto carried = [&](double law) {
-      return law < 0.0 ? intact[layer] * materials::carried_pressure(material_, law, 0.0) : law;
-    };
-    double pressure = carried(state.pressure);
-    for (int correction = 0; correction < 2; ++correction) {
-      state = materials::evaluate(material_.pressure, material_.rho0, density,
-                                  (other - 0.5 * (old_pressure + pressure) * swelling) / material_.rho0);
-      pressure = carried(state.pressure);
-    }
-    if (materials::spalls(material_, state.pressure)) {
-      std::fill_n(&damage_[at(c, 4 * layer)], 4, materials::failed);
-      pressure = 0.0;
-    }
-    pressure_[k] = pressure;
-    const double pressure_work = -0.5 * (old_pressure + pressure) * swelling;
-    energy_[k] = other + pressure_work;
-    stored += deviatoric_work[layer] + reference_volume * pressure_work;
-    bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;
+    const double viscous = 0.5 * (old_viscous + viscous_pressure_[c]);
+    if (!advance_pressure(c, layer, viscous, work, stored, bulk)) return false;
+    const double pressure = pressure_[2 * batches_ * c + layer];
     for (int i = 0; i < 3; ++i)
       for (int q = 4 * (layer % 2); q < 4 * (layer % 2) + 4; ++q) stress[layer / 2][i][q] -= pressure;
   }
@@ -524,19 +526,44 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
   const double old_residual = residual_[c];
   residual_[c] = residual_of(end, stress);
   stored -= 0.5 * (old_residual + residual_[c]) * amplitude;
-  elastic_[c] += stored - plastic_work;
-  plastic_[c] += plastic_work;
-  viscous_[c] -= 0.5 * (old_viscous + viscous_pressure_[c]) * all_opened;
+  elastic_[c] += stored - work.plastic;
+  plastic_[c] += work.plastic;
+  viscous_[c] -= 0.5 * (old_viscous + viscous_pressure_[c]) * opened;
   bulk_[c] = bulk;
-  follow_frequency(c, x_cell, most_strain, std::sqrt((bulk + 4.0 / 3.0 * shear) / mean_density), bulk);
+  follow_frequency(c, x, work.most_strain, std::sqrt((bulk + 4.0 / 3.0 * shear) / mean_density), bulk);
+  return true;
+}
 
-  for (int b = 0; b < batches_; ++b)
-    for (int i = 0; i < 3; ++i)
-      for (int q = 0; q < 8; ++q) stress[b][i][q] -= viscous_pressure_[c];
-  CellVectors local, force;
-  spread(now, end, stress, local);
-  turn_out(local, force);
-  return put_forces(c, force) && std::isfinite(bulk + residual_[c]);
+/// Pressure of a layer from its mean dilatation, with `viscous` the mean viscous pressure [Pa]; adds to what the cell has stored
+/// [J] and to its bulk modulus [Pa].
+bool ShellElements::advance_pressure(std::size_t c, int layer, double viscous, const Work& work, double& stored, double& bulk) {
+  const std::size_t k = 2 * batches_ * c + layer;
+  const double step = work.opened[layer] / work.volume[layer], old_dilatation = dilatation_[k], old_pressure = pressure_[k];
+  if (!(std::abs(step) < 1.0)) return false;
+  dilatation_[k] *= (1.0 + 0.5 * step) / (1.0 - 0.5 * step);
+  const double density = material_.rho0 / dilatation_[k];
+  const double reference_volume = work.volume[layer] / (0.5 * (old_dilatation + dilatation_[k]));
+  const double swelling = work.opened[layer] / reference_volume;  // per reference volume, as the energies below
+  const double other = energy_[k] + work.deviatoric[layer] / reference_volume - viscous * swelling;
+  const auto guess = materials::evaluate(material_.pressure, material_.rho0, density, energy_[k] / material_.rho0);
+  auto [pressure, state] = carried_pressure(material_,
+                                            {.density = density,
+                                             .mass = material_.rho0,
+                                             .opened = swelling,
+                                             .other_energy = other,
+                                             .old_pressure = old_pressure,
+                                             .intact = work.intact[layer]},
+                                            guess);
+  if (materials::spalls(material_, state.pressure)) {
+    std::fill_n(&damage_[at(c, 4 * layer)], 4, materials::failed);
+    pressure = 0.0;
+  }
+  pressure_[k] = pressure;
+  const double pressure_work = -0.5 * (old_pressure + pressure) * swelling;
+  energy_[k] = other + pressure_work;
+  stored += work.deviatoric[layer] + reference_volume * pressure_work;
+  bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;
+  return true;
 }
 
 void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVectors& u_cell, Moduli moduli,

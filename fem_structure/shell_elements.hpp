@@ -44,6 +44,7 @@ class ShellElements final : public ElementSet {
   using Lanes = materials::EightPoints;  ///< four points of one layer, then four of the next
   struct Surface;
   struct Geometry;
+  struct Work;
 
   bool advance_cell(std::size_t cell, std::span<const Vec3> x, std::span<const Vec3> u, double dt) override;
   void linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const override;
@@ -58,6 +59,13 @@ class ShellElements final : public ElementSet {
   double enhance(const Geometry& geometry, Moduli moduli, double residual, Lanes (*strain)[6]) const;
   double residual_of(const Geometry& geometry, const Lanes (*stress)[6]) const;
   void spread(const Surface& x, const Geometry& geometry, const Lanes (*stress)[6], CellVectors& force) const;
+  void find_gradient(int batch, const Surface& change, const Geometry& geometry, const Lanes (&strain)[6],
+                     Lanes (&gradient)[3][3]) const;
+  void advance_points(std::size_t cell, int batch, const Surface& change, const Geometry& geometry, const Geometry& end,
+                      const Lanes (&strain)[6], double dt, Work& work, Lanes (&stress)[6]);
+  bool advance_layers(std::size_t cell, double dt, double amplitude, const Work& work, const Geometry& end, const CellVectors& x,
+                      Lanes (*stress)[6]);
+  bool advance_pressure(std::size_t cell, int layer, double viscous, const Work& work, double& stored, double& bulk);
   std::size_t at(std::size_t cell, int q) const { return 8 * (batches_ * cell) + q; }
 
   int layers_, batches_;      ///< layers go through the law two at a time; the last batch may be half empty

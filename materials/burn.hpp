@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/record.hpp"
 #include "core/vector.hpp"
 #include "materials/jwl.hpp"
 
@@ -32,6 +33,34 @@ struct ProgrammedBurn {
   /// expands, so a caller who wants irreversible burn keeps the largest value met.
   double fraction(const Vec3& x, double t, double compression) const;
 };
+
+template <class Visit>
+void describe(ProgrammedBurn& burn, Visit&& visit) {
+  visit(ByHand{},
+        {.name = "model",
+         .rule = "\"programmed\"",
+         .values = "\"programmed\", \"instantaneous\"",
+         .meaning = "a front that runs at given speed, or all products at full energy from the start (then no other key)"});
+  visit(burn.origin, {.name = "initiation",
+                      .unit = "m",
+                      .range = Range::position(),
+                      .rule = "middle of the shape",
+                      .meaning = "where the front starts"});
+  visit(burn.D,
+        {.name = "speed", .unit = "m/s", .range = Range::positive(), .rule = "`D` of the material", .meaning = "of the front"});
+  visit(burn.width, {.name = "width",
+                     .unit = "m",
+                     .range = Range::between(0, Range::farthest),
+                     .rule = "6 spacings, at most 1/12 of the way from the initiation to the body's farthest side, at least 1.5 "
+                             "spacings",
+                     .meaning = "over which the burn rises, the front in its middle; 0: at once"});
+  visit(burn.cj_compression,
+        {.name = "cj_compression",
+         .range = Range::between(0, 5),
+         .rule = "from the material",
+         .meaning = "density over `rho0` at which squeezed explosive has burned even before the front; 0 or 1: "
+                    "off"});
+}
 
 /// Burn of the explosive `products` from `origin` [m] with a front `width` [m] wide, at the published
 /// detonation speed of the set; burn by compression is on, and complete at the Chapman-Jouguet density of the

@@ -7,6 +7,10 @@ bool uses_energy(const FluidLaw& law) {
   return std::visit([](const auto& l) { return l.uses_energy; }, law);
 }
 
+bool is_gas(const FluidLaw& law) {
+  return std::visit([](const auto& l) { return l.is_gas; }, law);
+}
+
 double density_at(const FluidLaw& law, double pressure, double energy) {
   return std::visit([&](const auto& l) { return l.density_at(pressure, energy); }, law);
 }

@@ -4,51 +4,42 @@
 
 #include <variant>
 
+#include "materials/cowper_symonds.hpp"
+#include "materials/flow_law.hpp"
+#include "materials/johnson_cook.hpp"
+#include "materials/power_hardening.hpp"
+#include "materials/zerilli_armstrong.hpp"
+
 namespace undex::materials {
 
-struct Elastic {};  ///< never yields
+/// Never yields.
+struct Elastic {
+  static constexpr const char* name = "elastic";
+  static constexpr const char* summary = "never yields";
+};
+template <class Visit>
+void describe(Elastic&, Visit&&) {}
+
 /// sigma_Y = Y0 + H eps_p, H >= 0; perfectly plastic with H = 0.
 struct LinearHardening {
+  static constexpr const char* name = "linear_hardening";
+  static constexpr const char* summary = "Y0 + H eps; perfectly plastic with H = 0";
   double Y0, H;  ///< [Pa]
 };
-/// A + B eps_p^n (Ludwik 1909). B, n >= 0.
-struct PowerHardening {
-  double A, B;  ///< [Pa]
-  double n;     ///< [-]
-};
-/// (A + B eps_p^n)(1 + C ln(rate/rate0))(1 - T*^m), T* = (T - T_room)/(T_melt - T_room) (Johnson and Cook 1983; Chen et
-/// al. 2019, doi 10.1007/s40571-019-00230-7, eqs 16, 17); rate clamped at rate0, T* to [0, 1]. B, n, C >= 0.
-struct JohnsonCook {
-  double A, B;            ///< [Pa]
-  double n, C, m;         ///< [-]; m is the k of Chen et al.
-  double T_melt;          ///< [K]
-  double rate0 = 1.0;     ///< [1/s]
-  double T_room = 293.0;  ///< [K]
-};
-/// (Y0 + H eps_p)(1 + (rate/D)^(1/q)) (Cowper and Symonds 1957). H >= 0; D, q > 0.
-struct CowperSymonds {
-  double Y0, H;  ///< [Pa]
-  double D;      ///< rate at which the stress has doubled [1/s]
-  double q;      ///< [-]
-};
-/// C0 + (C1 + C2 sqrt(eps_p)) exp(-C3 T + C4 T ln(rate)) + C5 eps_p^n, the rate in 1/s, clamped at rate0 (Zerilli and
-/// Armstrong 1987, doi 10.1063/1.338024). Body-centred metals have C2 = 0, face-centred ones C1 = C5 = 0. All >= 0.
-struct ZerilliArmstrong {
-  double C0;                  ///< [Pa]
-  double C1 = 0.0, C2 = 0.0;  ///< [Pa]
-  double C3, C4;              ///< [1/K]
-  double C5 = 0.0;            ///< [Pa]
-  double n = 1.0;             ///< [-]
-  double rate0 = 1e-3;        ///< the rate of a tensile test [1/s]: the law itself falls to C0 at rest
-};
-using FlowStress = std::variant<Elastic, LinearHardening, JohnsonCook, PowerHardening, CowperSymonds, ZerilliArmstrong>;
+template <class Visit>
+void describe(LinearHardening& law, Visit&& visit) {
+  visit(law.Y0, {.name = "Y0", .unit = "Pa", .range = Range::positive(), .needed = true, .meaning = "yield stress"});
+  visit(law.H, {.name = "H", .unit = "Pa", .range = Range::at_least(0), .needed = true, .meaning = "its slope"});
+}
 
-/// Flow stress with its slopes.
-struct Flow {
-  double stress;      ///< [Pa]
-  double hardening;   ///< d stress/d plastic strain at fixed rate and temperature [Pa]
-  double rate_slope;  ///< d stress/d rate at fixed plastic strain and temperature [Pa s]
-};
+/// A law with a closed return; all others have an isotherm.
+template <class Law>
+inline constexpr bool has_closed_return = std::same_as<Law, Elastic> || std::same_as<Law, LinearHardening>;
+template <class... Laws>
+requires((has_closed_return<Laws> || HasIsotherm<Laws>)&&...) using FlowStresses = std::variant<Laws...>;
+
+using FlowStress = FlowStresses<Elastic, LinearHardening, JohnsonCook, PowerHardening, CowperSymonds, ZerilliArmstrong>;
+
 /// At plastic strain [-], plastic strain rate [1/s] and temperature [K]; {infinite, 0, 0} for Elastic. Where a power of
 /// the strain makes the hardening infinite at zero strain, its value at a strain of 1e-6 is returned below that. The rate
 /// slope of Cowper and Symonds is infinite at rest.

@@ -16,7 +16,9 @@ class BarotropicGas {
     double p0;     ///< pressure at rho0 [Pa]
     double gamma;  ///< [-], above 1
   };
-  static constexpr bool uses_energy = false;
+  static constexpr const char* name = "barotropic_gas";
+  static constexpr const char* summary = "p = p0 (rho/rho0)^gamma";
+  static constexpr bool uses_energy = false, is_gas = true;
   /// Throws std::invalid_argument unless rho0 > 0, p0 > 0, gamma > 1.
   explicit BarotropicGas(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
@@ -31,6 +33,13 @@ class BarotropicGas {
  private:
   Parameters p_;
 };
+
+template <class Visit>
+void describe(BarotropicGas::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0", .unit = "kg/m^3", .range = Range::positive(), .needed = true, .meaning = "reference density"});
+  visit(p.p0, {.name = "p0", .unit = "Pa", .range = Range::positive(), .needed = true, .meaning = "pressure at `rho0`"});
+  visit(p.gamma, {.name = "gamma", .range = Range::above(1, 100), .needed = true, .meaning = "ratio of specific heats"});
+}
 
 inline PressureSound BarotropicGas::evaluate(double rho, double) const {
   const double ratio = rho / p_.rho0;
@@ -47,7 +56,9 @@ class IdealGas {
     double rho0;   ///< reference density [kg/m^3]; the law itself does not depend on it
     double gamma;  ///< [-], above 1
   };
-  static constexpr bool uses_energy = true;
+  static constexpr const char* name = "ideal_gas";
+  static constexpr const char* summary = "p = (gamma - 1) rho e";
+  static constexpr bool uses_energy = true, is_gas = true;
   /// Throws std::invalid_argument unless rho0 > 0, gamma > 1.
   explicit IdealGas(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
@@ -60,6 +71,12 @@ class IdealGas {
  private:
   Parameters p_;
 };
+
+template <class Visit>
+void describe(IdealGas::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0", .unit = "kg/m^3", .range = Range::positive(), .needed = true, .meaning = "reference density"});
+  visit(p.gamma, {.name = "gamma", .range = Range::above(1, 100), .needed = true, .meaning = "ratio of specific heats"});
+}
 
 inline PressureSound IdealGas::evaluate(double rho, double energy) const {
   const double per_density = (p_.gamma - 1.0) * energy;

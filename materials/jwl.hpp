@@ -21,7 +21,11 @@ class Jwl {
     double D;       ///< detonation speed [m/s]
     double p_cj;    ///< Chapman-Jouguet pressure [Pa]; D and p_cj are as published, not derived from the rest
   };
-  static constexpr bool uses_energy = true;
+  static constexpr const char* name = "jwl";
+  static constexpr const char* summary =
+      "detonation products, p = A (1 - omega eta/R1) exp(-R1/eta) + B (1 - omega eta/R2) "
+      "exp(-R2/eta) + omega rho e, eta = rho/rho0";
+  static constexpr bool uses_energy = true, is_gas = true;
   /// Throws std::invalid_argument unless rho0, R1, R2, omega, E0 and D are positive.
   explicit Jwl(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
@@ -36,6 +40,25 @@ class Jwl {
  private:
   Parameters p_;
 };
+
+template <class Visit>
+void describe(Jwl::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0",
+                 .unit = "kg/m^3",
+                 .range = Range::positive(),
+                 .needed = true,
+                 .meaning = "density of the solid explosive"});
+  visit(p.A, {.name = "A", .unit = "Pa", .needed = true, .meaning = "stiffness of the products where they are dense"});
+  visit(p.B, {.name = "B", .unit = "Pa", .needed = true, .meaning = "and further out"});
+  visit(p.R1, {.name = "R1", .range = Range::positive(), .needed = true, .meaning = "decay of the first term"});
+  visit(p.R2, {.name = "R2", .range = Range::positive(), .needed = true, .meaning = "and of the second"});
+  visit(p.omega, {.name = "omega", .range = Range::positive(), .needed = true, .meaning = "Grüneisen parameter"});
+  visit(p.E0,
+        {.name = "E0", .unit = "J/kg", .range = Range::positive(), .needed = true, .meaning = "detonation energy per mass"});
+  visit(p.D, {.name = "D", .unit = "m/s", .range = Range::positive(), .needed = true, .meaning = "detonation speed"});
+  visit(p.p_cj,
+        {.name = "p_cj", .unit = "Pa", .range = Range::positive(), .needed = true, .meaning = "Chapman-Jouguet pressure"});
+}
 
 inline PressureSound Jwl::evaluate(double rho, double energy) const {
   const double eta = rho / p_.rho0, volume = 1.0 / eta;

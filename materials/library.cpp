@@ -3,6 +3,8 @@
 // file.
 #include "materials/library.hpp"
 
+#include <type_traits>
+
 namespace undex::materials {
 
 namespace {
@@ -20,47 +22,52 @@ std::optional<Set> find(const std::vector<Set>& sets, std::string_view name) {
   return std::nullopt;
 }
 
-Fluid tait(const char* name, Cavitation cavitation, const char* source) {
-  TaitWater::Parameters p;
-  p.cavitation = cavitation;
-  return {name, source, TaitWater(p), p.rho0};
-}
-
-Fluid barotropic(const char* name, const BarotropicGas::Parameters& p, const char* source) {
-  return {name, source, BarotropicGas(p), p.rho0};
+template <class Law>
+Fluid fluid(const char* name, const char* source, const Law& law) {
+  Fluid set;
+  set.name = name;
+  set.source = source;
+  set.law = law;
+  set.rho0 = law.parameters().rho0;
+  return set;
 }
 
 std::vector<Fluid> make_fluids() {
   std::vector<Fluid> sets;
-  sets.push_back(tait("water-tait", Cavitation::schmidt,
-                      UNDEX_PAPER ", eqs 28-33 and the constants printed with them; the mixture starts at the Tait "
-                                  "density of p_sat, where the printed eq. 32 would jump"));
-  sets.push_back(tait("water-tait-cutoff", Cavitation::cutoff,
-                      UNDEX_PAPER ", eq. 28 with its constants; plain cut-off at p_floor in place of the mixture"));
+  sets.push_back(fluid("water-tait",
+                       UNDEX_PAPER ", eqs 28-33 and the constants printed with them; the mixture starts at the Tait "
+                                   "density of p_sat, where the printed eq. 32 would jump",
+                       TaitWater()));
+
+  TaitWater::Parameters cutoff;
+  cutoff.cavitation = Cavitation::cutoff;
+  sets.push_back(fluid("water-tait-cutoff",
+                       UNDEX_PAPER ", eq. 28 with its constants; plain cut-off at p_floor in place of the mixture",
+                       TaitWater(cutoff)));
 
   TaitWater::Parameters isentropic;
   isentropic.cavitation = Cavitation::isentropic;
   isentropic.mixture.density_ratio = 2.31e-5;
-  sets.push_back({"water-tait-isentropic",
-                  "Liquid: " UNDEX_PAPER
-                  ", eq. 28 with its constants; mixture: Liu, Khoo, Xie 2004, J. Comput. Phys. 201, 80; saturated steam of "
-                  "25 C, 0.0231 kg/m^3 and gamma 1.33, recalled, not read; initial_void is a choice of ours",
-                  TaitWater(isentropic), isentropic.rho0});
+  sets.push_back(fluid("water-tait-isentropic",
+                       "Liquid: " UNDEX_PAPER
+                       ", eq. 28 with its constants; mixture: Liu, Khoo, Xie 2004, J. Comput. Phys. 201, 80; saturated steam of "
+                       "25 C, 0.0231 kg/m^3 and gamma 1.33, recalled, not read; initial_void is a choice of ours",
+                       TaitWater(isentropic)));
 
   const MieGruneisenWater::Parameters steinberg;
-  sets.push_back({"water-steinberg",
-                  "Form: " UNDEX_PAPER ", eq. 27; coefficients after Steinberg 1987, recalled, not read; supported by a "
-                  "cubic pressure fit read in a public code (2.19, 9.224, 8.767 GPa), 2-4 % off at mu = 0.1 and 0.2",
-                  MieGruneisenWater(steinberg), steinberg.rho0});
+  sets.push_back(fluid("water-steinberg",
+                       "Form: " UNDEX_PAPER ", eq. 27; coefficients after Steinberg 1987, recalled, not read; supported by a "
+                       "cubic pressure fit read in a public code (2.19, 9.224, 8.767 GPa), 2-4 % off at mu = 0.1 and 0.2",
+                       MieGruneisenWater(steinberg)));
 
   MieGruneisenWater::Parameters printed;
   printed.S2 = 1.986;
   printed.S3 = 1.2286;
   printed.alpha = 0.0;
-  sets.push_back({"water-paper-mg",
-                  UNDEX_PAPER ", table 4 to the letter. S2 and S3 look like misprints of Steinberg's -1.986 and 0.2268: "
-                              "at mu = 0.2 this set gives 1332 MPa where his gives 847",
-                  MieGruneisenWater(printed), printed.rho0});
+  sets.push_back(fluid("water-paper-mg",
+                       UNDEX_PAPER ", table 4 to the letter. S2 and S3 look like misprints of Steinberg's -1.986 and 0.2268: "
+                                   "at mu = 0.2 this set gives 1332 MPa where his gives 847",
+                       MieGruneisenWater(printed)));
 
   const Jwl::Parameters petn{.rho0 = 1770.0,
                              .A = 617e9,
@@ -71,22 +78,24 @@ std::vector<Fluid> make_fluids() {
                              .E0 = 10.1e9 / 1770.0,
                              .D = 8300.0,
                              .p_cj = 33.5e9};
-  sets.push_back({"petn",
-                  "PETN of 1770 kg/m^3, as read in public hydrocode data; stands for the lost table 1 of " UNDEX_PAPER
-                  ". Self-consistent: its own Chapman-Jouguet state is 33.51 GPa at 8301 m/s",
-                  Jwl(petn), petn.rho0});
+  sets.push_back(fluid("petn",
+                       "PETN of 1770 kg/m^3, as read in public hydrocode data; stands for the lost table 1 of " UNDEX_PAPER
+                       ". Self-consistent: its own Chapman-Jouguet state is 33.51 GPa at 8301 m/s",
+                       Jwl(petn)));
 
-  sets.push_back(barotropic("bubble-gas", {.rho0 = 1770.0, .p0 = 2e9, .gamma = 2.0},
-                            UNDEX_PAPER ", eq. 25 and section 4.1: the explosive gas bubble in the rigid cylinder"));
-  sets.push_back(barotropic("sjogreen-gas", {.rho0 = 1.0, .p0 = 0.4, .gamma = 1.4},
-                            UNDEX_PAPER ", eq. 34, the state of the Sjogreen problem (dimensionless there); gamma 1.4 is "
-                                        "the value that gives the figure of the paper"));
-  sets.push_back(barotropic("sjogreen-gas-gamma2", {.rho0 = 1.0, .p0 = 0.4, .gamma = 2.0},
-                            UNDEX_PAPER ", eq. 34 with the gamma printed beside eq. 25; the exact solution then has a "
-                                        "vacuum in the middle, unlike the figure"));
+  sets.push_back(fluid("bubble-gas", UNDEX_PAPER ", eq. 25 and section 4.1: the explosive gas bubble in the rigid cylinder",
+                       BarotropicGas({.rho0 = 1770.0, .p0 = 2e9, .gamma = 2.0})));
+  sets.push_back(fluid("sjogreen-gas",
+                       UNDEX_PAPER ", eq. 34, the state of the Sjogreen problem (dimensionless there); gamma 1.4 is "
+                                   "the value that gives the figure of the paper",
+                       BarotropicGas({.rho0 = 1.0, .p0 = 0.4, .gamma = 1.4})));
+  sets.push_back(fluid("sjogreen-gas-gamma2",
+                       UNDEX_PAPER ", eq. 34 with the gamma printed beside eq. 25; the exact solution then has a "
+                                   "vacuum in the middle, unlike the figure",
+                       BarotropicGas({.rho0 = 1.0, .p0 = 0.4, .gamma = 2.0})));
   const IdealGas::Parameters air{.rho0 = 1.204, .gamma = 1.4};
   sets.push_back(
-      {"air", "Dry air at 20 C and 101325 Pa as an ideal gas; handbook values, recalled, not read", IdealGas(air), air.rho0});
+      fluid("air", "Dry air at 20 C and 101325 Pa as an ideal gas; handbook values, recalled, not read", IdealGas(air)));
   return sets;
 }
 
@@ -181,7 +190,8 @@ std::vector<Solid> make_solids() {
     changed.name += "-damage";
     changed.source = std::string("As ") + of + " (" + changed.source +
                      "), with the damage constants of Johnson and Cook 1985, recalled, not read";
-    changed.damage = {D1, D2, D3, D4, D5, std::get<JohnsonCook>(changed.flow).T_melt};
+    changed.damage =
+        JohnsonCookDamage{.D1 = D1, .D2 = D2, .D3 = D3, .D4 = D4, .D5 = D5, .T_melt = std::get<JohnsonCook>(changed.flow).T_melt};
     sets.push_back(changed);
   };
   add_damaged("armco-iron", -2.20, 5.43, -0.47, 0.016, 0.63);
@@ -211,84 +221,13 @@ std::vector<std::string> names(const std::vector<Set>& sets) {
 
 using Table = std::vector<std::pair<std::string, double>>;
 
-void append(Table& table, const Table& rows) { table.insert(table.end(), rows.begin(), rows.end()); }
-
-Table rows(const TaitWater& law) {
-  const TaitWater::Parameters& p = law.parameters();
-  Table table{{"rho0 [kg/m^3]", p.rho0}, {"B [Pa]", p.B}, {"N [-]", p.N}, {"A [Pa]", p.A}};
-  if (p.cavitation == Cavitation::schmidt)
-    append(table, {{"p_sat [Pa]", p.mixture.p_sat},
-                   {"density_ratio [-]", p.mixture.density_ratio},
-                   {"vapour_sound [m/s]", p.mixture.vapour_sound},
-                   {"liquid_sound [m/s]", p.mixture.liquid_sound}});
-  if (p.cavitation == Cavitation::isentropic)
-    append(table, {{"p_sat [Pa]", p.mixture.p_sat},
-                   {"density_ratio [-]", p.mixture.density_ratio},
-                   {"vapour_gamma [-]", p.vapour_gamma},
-                   {"initial_void [-]", p.initial_void}});
-  if (p.cavitation != Cavitation::none) append(table, {{"p_floor [Pa]", p.p_floor}});
-  return table;
-}
-
-Table rows(const BarotropicGas& law) {
-  const BarotropicGas::Parameters& p = law.parameters();
-  return {{"rho0 [kg/m^3]", p.rho0}, {"p0 [Pa]", p.p0}, {"gamma [-]", p.gamma}};
-}
-
-Table rows(const IdealGas& law) {
-  const IdealGas::Parameters& p = law.parameters();
-  return {{"rho0 [kg/m^3]", p.rho0}, {"gamma [-]", p.gamma}};
-}
-
-Table rows(const StiffenedGas& law) {
-  const StiffenedGas::Parameters& p = law.parameters();
-  return {{"rho0 [kg/m^3]", p.rho0}, {"gamma [-]", p.gamma}, {"p_inf [Pa]", p.p_inf}};
-}
-
-Table rows(const Jwl& law) {
-  const Jwl::Parameters& p = law.parameters();
-  return {{"rho0 [kg/m^3]", p.rho0}, {"A [Pa]", p.A},     {"B [Pa]", p.B},  {"R1 [-]", p.R1},     {"R2 [-]", p.R2},
-          {"omega [-]", p.omega},    {"E0 [J/kg]", p.E0}, {"D [m/s]", p.D}, {"p_cj [Pa]", p.p_cj}};
-}
-
-Table rows(const MieGruneisenWater& law) {
-  const MieGruneisenWater::Parameters& p = law.parameters();
-  Table table{{"rho0 [kg/m^3]", p.rho0}, {"C0 [m/s]", p.C0},       {"S1 [-]", p.S1},      {"S2 [-]", p.S2},
-              {"S3 [-]", p.S3},          {"gamma0 [-]", p.gamma0}, {"alpha [-]", p.alpha}};
-  if (p.cavitation != Cavitation::none) append(table, {{"p_floor [Pa]", p.p_floor}});
-  return table;
-}
-
-Table rows(const LinearPressure& law) { return {{"bulk_modulus [Pa]", law.bulk_modulus}}; }
-
-Table rows(const MieGruneisenPressure& law) { return {{"C [m/s]", law.C}, {"S [-]", law.S}, {"Gamma [-]", law.Gamma}}; }
-
-Table rows(const Elastic&) { return {}; }
-
-Table rows(const LinearHardening& law) { return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}}; }
-
-Table rows(const PowerHardening& law) { return {{"A [Pa]", law.A}, {"B [Pa]", law.B}, {"n [-]", law.n}}; }
-
-Table rows(const CowperSymonds& law) { return {{"Y0 [Pa]", law.Y0}, {"H [Pa]", law.H}, {"D [1/s]", law.D}, {"q [-]", law.q}}; }
-
-Table rows(const ZerilliArmstrong& law) {
-  return {{"za_C0 [Pa]", law.C0},  {"za_C1 [Pa]", law.C1}, {"za_C2 [Pa]", law.C2}, {"za_C3 [1/K]", law.C3},
-          {"za_C4 [1/K]", law.C4}, {"za_C5 [Pa]", law.C5}, {"za_n [-]", law.n},    {"rate0 [1/s]", law.rate0}};
-}
-
-// Names start with jc: A, B and C stand beside a pressure law's C.
-Table rows(const JohnsonCook& law) {
-  return {{"jc_A [Pa]", law.A}, {"jc_B [Pa]", law.B},       {"jc_n [-]", law.n},        {"jc_C [-]", law.C},
-          {"jc_m [-]", law.m},  {"T_melt [K]", law.T_melt}, {"rate0 [1/s]", law.rate0}, {"jc_T_room [K]", law.T_room}};
-}
-
-Table rows(const Spall& spall) { return {{"spall_strength [Pa]", spall.strength}}; }
-
-// Names start with damage: a flow stress has a melting point of its own.
-Table rows(const JohnsonCookDamage& law) {
-  return {{"damage_D1 [-]", law.D1},         {"damage_D2 [-]", law.D2},        {"damage_D3 [-]", law.D3},
-          {"damage_D4 [-]", law.D4},         {"damage_D5 [-]", law.D5},        {"damage_T_melt [K]", law.T_melt},
-          {"damage_rate0 [1/s]", law.rate0}, {"damage_T_room [K]", law.T_room}};
+/// The numbers of a record that count, each under the name that it has in a scene file.
+template <class Record>
+void append(Table& table, const std::string& prefix, const Record& record) {
+  for_each_field(record, [&](const auto& value, const Key& key) {
+    if constexpr (std::is_same_v<decltype(value), const double&>)
+      if (key.used) table.emplace_back(prefix + key.name + " [" + (*key.unit ? key.unit : "-") + "]", value);
+  });
 }
 
 }  // namespace
@@ -299,18 +238,18 @@ std::vector<std::string> fluid_names() { return names(fluids()); }
 std::vector<std::string> solid_names() { return names(solids()); }
 
 std::vector<std::pair<std::string, double>> parameters(const Fluid& fluid) {
-  return std::visit([](const auto& law) { return rows(law); }, fluid.law);
+  Table table;
+  std::visit([&](const auto& law) { append(table, "", law.parameters()); }, fluid.law);
+  return table;
 }
 
 std::vector<std::pair<std::string, double>> parameters(const Solid& solid) {
-  Table table{{"rho0 [kg/m^3]", solid.rho0}, {"shear_modulus [Pa]", solid.shear_modulus}};
-  append(table, std::visit([](const auto& law) { return rows(law); }, solid.pressure));
-  append(table, std::visit([](const auto& law) { return rows(law); }, solid.flow));
-  append(table, {{"heat_capacity [J/kg/K]", solid.heat_capacity},
-                 {"taylor_quinney [-]", solid.taylor_quinney},
-                 {"T_room [K]", solid.T_room}});
-  if (solid.spall) append(table, rows(*solid.spall));
-  if (solid.damage) append(table, rows(*solid.damage));
+  Table table;
+  append(table, "", solid);
+  std::visit([&](const auto& law) { append(table, "pressure.", law); }, solid.pressure);
+  std::visit([&](const auto& law) { append(table, "flow.", law); }, solid.flow);
+  if (solid.spall) append(table, "spall.", *solid.spall);
+  if (solid.damage) append(table, "damage.", *solid.damage);
   return table;
 }
 

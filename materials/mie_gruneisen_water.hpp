@@ -39,7 +39,9 @@ class MieGruneisenWater {
     Cavitation cavitation = Cavitation::cutoff;  ///< none or cutoff
     double p_floor = 1e-5;                       ///< [Pa]
   };
-  static constexpr bool uses_energy = true;
+  static constexpr const char* name = "mie_gruneisen";
+  static constexpr const char* summary = "water with energy: Mie and Grüneisen with a cubic fit of the shock speed";
+  static constexpr bool uses_energy = true, is_gas = false;
   /// Throws std::invalid_argument unless rho0, C0 > 0 and the cavitation model is none or cutoff.
   explicit MieGruneisenWater(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
@@ -67,6 +69,20 @@ class MieGruneisenWater {
   double mu_limit_ = std::numeric_limits<double>::infinity();
   Curve at_limit_{0.0, 0.0};
 };
+
+template <class Visit>
+void describe(MieGruneisenWater::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0", .unit = "kg/m^3", .range = Range::positive(), .meaning = "reference density"});
+  visit(p.C0, {.name = "C0", .unit = "m/s", .range = Range::positive(), .meaning = "sound speed"});
+  visit(p.S1, {.name = "S1", .meaning = "shock speed over particle speed: its slope"});
+  visit(p.S2, {.name = "S2", .meaning = "and the quadratic term"});
+  visit(p.S3, {.name = "S3", .meaning = "and the cubic one"});
+  visit(p.gamma0, {.name = "gamma0", .meaning = "Grüneisen parameter"});
+  visit(p.alpha, {.name = "alpha", .meaning = "its first-order correction"});
+  visit(p.cavitation,
+        {.name = "cavitation", .values = "\"cutoff\", \"none\"", .meaning = "pressure held at `p_floor`, or tension"});
+  visit(p.p_floor, {.name = "p_floor", .unit = "Pa", .used = p.cavitation != Cavitation::none, .meaning = "least pressure"});
+}
 
 inline double MieGruneisenWater::denominator(double mu) const {
   const double q = mu / (1.0 + mu);

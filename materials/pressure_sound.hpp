@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record.hpp"
+
 namespace undex::materials {
 
 struct PressureSound {
@@ -19,6 +21,12 @@ enum class Cavitation {
                ///< at p_sat
   isentropic,  ///< liquid and vapour in equilibrium of pressure, each on its isentrope (isentropic_mixture.hpp)
 };
+constexpr auto words(Cavitation) {
+  return std::to_array<Word<Cavitation>>({{"none", Cavitation::none},
+                                          {"cutoff", Cavitation::cutoff},
+                                          {"schmidt", Cavitation::schmidt},
+                                          {"isentropic", Cavitation::isentropic}});
+}
 
 /// Square root of a squared sound speed [m^2/s^2], held at or above 1 mm/s. Time steps and impedances divide
 /// by the sound speed, and a state outside a law's physical range (no energy left, unstable compression) may

@@ -1,30 +1,15 @@
 // A solid: pressure law, flow stress, failure. Shared by every discretisation. Chen, Peng, Lien, Zhao 2019, doi
 // 10.1007/s40571-019-00230-7, eqs 14-23. Cauchy stress, positive in tension; pressure positive in compression; SI units.
-// Compiled once, in solid.cpp, and not inlined, as the flow stress. Where a loop knows its pressure law, the overloads for
-// the single laws save the dispatch.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "materials/failure.hpp"
 #include "materials/flow_stress.hpp"
+#include "materials/solid_pressure.hpp"
 
 namespace undex::materials {
-
-/// p = K (rho/rho0 - 1).
-struct LinearPressure {
-  double bulk_modulus;  ///< [Pa]
-};
-/// Mie-Grueneisen with a Hugoniot cubic in eta = rho/rho0 - 1 (eqs 21-23):
-/// p = (1 - Gamma eta/2) p_H + Gamma rho e, with p_H linear in tension.
-struct MieGruneisenPressure {
-  double C;      ///< bulk sound speed at rest [m/s]
-  double S;      ///< slope of shock speed over particle speed [-]
-  double Gamma;  ///< [-]
-};
-using SolidPressure = std::variant<LinearPressure, MieGruneisenPressure>;
 
 struct Solid {
   std::string name, source;
@@ -39,16 +24,51 @@ struct Solid {
   std::optional<JohnsonCookDamage> damage;  ///< without it plastic strain does not break
 };
 
-/// p [Pa] and bulk sound speed [m/s].
-struct SolidPressureSound {
-  double pressure, bulk_sound;
-};
-/// At density rho [kg/m^3] and specific internal energy e [J/kg], counted from zero at rest at room
-/// temperature. Bulk sound is the isentropic dp/drho of the pressure law alone (no shear), at least a tenth
-/// of C for Mie-Grueneisen.
-SolidPressureSound evaluate(const SolidPressure& law, double rho0, double rho, double energy);
-SolidPressureSound evaluate(const LinearPressure& law, double rho0, double rho, double energy);
-SolidPressureSound evaluate(const MieGruneisenPressure& law, double rho0, double rho, double energy);
+template <class Visit>
+void describe(Solid& solid, Visit&& visit) {
+  visit(ByHand{}, {.name = "base", .rule = "none", .values = "a material's name", .meaning = "start from its values"});
+  visit(solid.name, {.name = "name", .rule = "made from base", .meaning = "for records"});
+  visit(solid.source, {.name = "source", .rule = "\"the scene file\"", .meaning = "where the values come from"});
+  visit(solid.rho0, {.name = "rho0",
+                     .unit = "kg/m^3",
+                     .range = Range::positive(),
+                     .needed = true,
+                     .remedy = "give the density in kg/m^3",
+                     .meaning = "reference density"});
+  visit(ByHand{}, {.name = "young_modulus",
+                   .unit = "Pa",
+                   .range = Range::positive(),
+                   .rule = "none",
+                   .meaning = "with `poisson_ratio`: gives shear and bulk modulus"});
+  visit(ByHand{},
+        {.name = "poisson_ratio", .range = Range::above(-1, 0.4999), .rule = "none", .meaning = "with `young_modulus`"});
+  visit(solid.shear_modulus, {.name = "shear_modulus",
+                              .unit = "Pa",
+                              .range = Range::positive(),
+                              .rule = "required without `young_modulus`",
+                              .meaning = "elastic stiffness in shear"});
+  visit(
+      ByHand{},
+      {.name = "pressure", .rule = "linear, from `young_modulus`", .values = "{law = ..., ...}", .meaning = "the pressure law"});
+  visit(ByHand{}, {.name = "flow",
+                   .needed = true,
+                   .remedy = "e.g. flow = {law = \"elastic\"}",
+                   .values = "{law = ..., ...}",
+                   .meaning = "the flow stress"});
+  visit(ByHand{}, {.name = "spall",
+                   .rule = "none: any tension is carried",
+                   .values = "{strength = ..., mode = ...}",
+                   .meaning = "tensile strength of the pressure"});
+  visit(ByHand{}, {.name = "damage",
+                   .rule = "none: plastic strain does not break",
+                   .values = "{D1 = ..., ...}",
+                   .meaning = "Johnson-Cook fracture"});
+  visit(solid.heat_capacity,
+        {.name = "heat_capacity", .unit = "J/kg/K", .range = Range::positive(), .meaning = "of what plastic work heats"});
+  visit(solid.taylor_quinney,
+        {.name = "taylor_quinney", .range = Range::between(0, 1), .meaning = "share of the plastic work that heats"});
+  visit(solid.T_room, {.name = "T_room", .unit = "K", .range = Range::above(0, 1e4), .meaning = "temperature at the start"});
+}
 
 /// A point that has failed has damage 1 [-]; below that its damage counts the share of the fracture strain spent.
 inline constexpr double failed = 1.0;

@@ -16,7 +16,10 @@ class StiffenedGas {
     double gamma;  ///< [-], above 1
     double p_inf;  ///< [Pa], not negative; 0 is the ideal gas
   };
-  static constexpr bool uses_energy = true;
+  static constexpr const char* name = "stiffened_gas";
+  static constexpr const char* summary =
+      "p = (gamma - 1) rho e - gamma p_inf, a liquid that carries tension down to -p_inf (its bodies need `energy`)";
+  static constexpr bool uses_energy = true, is_gas = false;
   /// Throws std::invalid_argument unless rho0 > 0, gamma > 1 and p_inf >= 0.
   explicit StiffenedGas(const Parameters& parameters);
   const Parameters& parameters() const { return p_; }
@@ -29,6 +32,13 @@ class StiffenedGas {
  private:
   Parameters p_;
 };
+
+template <class Visit>
+void describe(StiffenedGas::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0", .unit = "kg/m^3", .range = Range::positive(), .needed = true, .meaning = "reference density"});
+  visit(p.gamma, {.name = "gamma", .range = Range::above(1, 100), .needed = true, .meaning = "ratio of specific heats"});
+  visit(p.p_inf, {.name = "p_inf", .unit = "Pa", .range = Range::at_least(0), .needed = true, .meaning = "inner pressure"});
+}
 
 inline PressureSound StiffenedGas::evaluate(double rho, double energy) const {
   const double pressure = (p_.gamma - 1.0) * rho * energy - p_.gamma * p_.p_inf;

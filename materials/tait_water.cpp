@@ -24,6 +24,8 @@ double schmidt_pressure_scale(const SchmidtMixture& mixture, double rho_liquid) 
   return K_vapour * K_liquid * (rho_liquid - rho_vapour) / (rho_liquid * K_liquid - rho_vapour * K_vapour);
 }
 
+TaitWater::TaitWater() : TaitWater(Parameters{}) {}
+
 TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   require(p_.rho0 > 0, "rho0 [kg/m^3] must be positive", p_.rho0);
   require(p_.B > 0, "B [Pa] must be positive", p_.B);
@@ -50,8 +52,13 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
     rho_limit_ = liquid_density(mixture.p_sat);
     liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
     rho_vapour_ = mixture.density_ratio * rho_limit_;
-    isentropic_ =
-        IsentropicMixture({mixture.p_sat, rho_limit_, p_.N, p_.B - p_.A, rho_vapour_, p_.vapour_gamma, p_.initial_void});
+    isentropic_ = IsentropicMixture({.p_sat = mixture.p_sat,
+                                     .liquid_density = rho_limit_,
+                                     .N = p_.N,
+                                     .stiffness = p_.B - p_.A,
+                                     .vapour_density = rho_vapour_,
+                                     .gamma = p_.vapour_gamma,
+                                     .initial_void = p_.initial_void});
     p_lowest_ = p_.p_floor;
     rho_wet_ = isentropic_.density(mixture.p_sat);
     rho_floor_ = isentropic_.density(p_lowest_);

@@ -55,8 +55,11 @@ class TaitWater {
     double vapour_gamma = 1.33;  ///< [-], of the isentropic mixture, as the next
     double initial_void = 1e-5;  ///< void fraction where the liquid begins to cavitate
   };
-  static constexpr bool uses_energy = false;
+  static constexpr const char* name = "tait";
+  static constexpr const char* summary = "p = B ((rho/rho0)^N - 1) + A, with cavitation; barotropic";
+  static constexpr bool uses_energy = false, is_gas = false;
 
+  TaitWater();  ///< the default parameters
   /// Throws std::invalid_argument where a parameter leaves its range (rho0, B > 0, N > 1, 0 < density_ratio <
   /// 1, p_floor < p_sat, both attainable by the liquid law; vapour_gamma > 1, 0 < initial_void < 1).
   explicit TaitWater(const Parameters& parameters);
@@ -102,6 +105,47 @@ class TaitWater {
   IsentropicMixture isentropic_;
   double rho_wet_ = 0.0, energy_wet_ = 0.0;  // where the isentropic mixture begins
 };
+
+template <class Visit>
+void describe(TaitWater::Parameters& p, Visit&& visit) {
+  visit(p.rho0, {.name = "rho0", .unit = "kg/m^3", .range = Range::positive(), .meaning = "reference density"});
+  visit(p.B, {.name = "B", .unit = "Pa", .range = Range::positive(), .meaning = "stiffness"});
+  visit(p.N, {.name = "N", .range = Range::above(1, 100), .meaning = "its exponent"});
+  visit(p.A, {.name = "A", .unit = "Pa", .meaning = "pressure at `rho0`"});
+  visit(p.cavitation, {.name = "cavitation",
+                       .meaning = "mixture below `p_sat` (two models: \"schmidt\", \"isentropic\"), pressure "
+                                  "held at `p_floor`, or tension"});
+  const bool schmidt = p.cavitation == Cavitation::schmidt, isentropic = p.cavitation == Cavitation::isentropic;
+  visit(p.mixture.density_ratio,
+        {.name = "density_ratio", .range = Range::above(0, 1), .used = schmidt || isentropic, .meaning = "vapour over liquid"});
+  visit(p.mixture.vapour_sound, {.name = "vapour_sound",
+                                 .unit = "m/s",
+                                 .range = Range::positive(),
+                                 .used = schmidt,
+                                 .meaning = "\"schmidt\": sound speed of vapour"});
+  visit(p.mixture.liquid_sound, {.name = "liquid_sound",
+                                 .unit = "m/s",
+                                 .range = Range::positive(),
+                                 .used = schmidt,
+                                 .meaning = "\"schmidt\": and of the liquid, in the mixture's law"});
+  visit(p.mixture.p_sat, {.name = "p_sat",
+                          .unit = "Pa",
+                          .range = Range::positive(),
+                          .used = schmidt || isentropic,
+                          .meaning = "saturation pressure"});
+  visit(p.p_floor, {.name = "p_floor",
+                    .unit = "Pa",
+                    .used = p.cavitation != Cavitation::none,
+                    .meaning = "least pressure; above 0 with \"isentropic\""});
+  visit(p.vapour_gamma, {.name = "vapour_gamma",
+                         .range = Range::above(1, 100),
+                         .used = isentropic,
+                         .meaning = "\"isentropic\": exponent of the vapour's isentrope"});
+  visit(p.initial_void, {.name = "initial_void",
+                         .range = Range::above(0, 1),
+                         .used = isentropic,
+                         .meaning = "\"isentropic\": void fraction where cavitation begins"});
+}
 
 inline PressureSound TaitWater::evaluate(double rho, double) const {
   if (rho < rho_limit_) {

@@ -12,7 +12,7 @@
 #include "run/plane_wave_start.hpp"
 #include "run/spherical_start.hpp"
 #include "core/shapes.hpp"
-#include "sph_fluid/lattice.hpp"
+#include "sph_fluid/walls/lattice_warnings.hpp"
 
 namespace undex::run {
 namespace {

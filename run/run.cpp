@@ -15,7 +15,7 @@
 #include "run/record.hpp"
 #include "run/simulation.hpp"
 #include "run/spherical_start.hpp"
-#include "sph_fluid/lattice.hpp"
+#include "sph_fluid/walls/lattice_warnings.hpp"
 
 namespace undex::run {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/alternatives.hpp"
 #include "scene/document.hpp"
 #include "scene/report.hpp"
 #include "scene/scene.hpp"
@@ -60,6 +61,14 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
 /// Puts the shapes of named bodies and solids where `subtract` names them.
 void resolve_subtractions(Draft& draft);
 
+/// The types of shapes: all of them, those of bodies that have to end somewhere, and those of rigid containers.
+inline std::vector<std::string> shape_names() { return Alternatives<Primitive>::names(); }
+inline std::vector<std::string> bounded_shape_names() {
+  return Alternatives<Primitive>::names([]<class Type>(std::type_identity<Type>) { return Type::is_bounded; });
+}
+inline std::vector<std::string> container_names() {
+  return Alternatives<Primitive>::names([]<class Type>(std::type_identity<Type>) { return Type::is_container; });
+}
 /// A shape table; `allowed` are its possible types. Returns whether it was good.
 bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed, Report& report,
                 Primitive& into);

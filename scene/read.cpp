@@ -8,7 +8,7 @@
 #include "scene/document.hpp"
 #include "scene/draft.hpp"
 #include "scene/overrides.hpp"
-#include "scene/table_reader.hpp"
+#include "scene/record_reader.hpp"
 
 namespace undex::scene {
 namespace {
@@ -23,14 +23,8 @@ void read_top(Draft& draft) {
     scene.fluid.dimension = dimension;
   }
   const TableReader table(draft.root, "", "", scene.fluid.dimension, draft.report);
-  table.read("dimension", scene.fluid.dimension);
-  table.read_name("name", scene.name);
-  scene.title = scene.name;
-  table.read("title", scene.title);
-  table.need("end_time", "give it in s, e.g. end_time = 1e-4");
-  table.read("end_time", scene.end_time);
-  table.read("threads", scene.fluid.numerics.threads);
-  table.read("gravity", scene.fluid.gravity);
+  read_fields(table, scene);
+  if (!table.has("title")) scene.title = scene.name;
 }
 
 /// Each mistake once: a material that two bodies use is read twice.

@@ -4,17 +4,14 @@
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
 #include "scene/numbers.hpp"
+#include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/table_reader.hpp"
 
 namespace undex::scene {
 namespace {
 
 using namespace materials;
 using sph::FaceCondition;
-
-const Choices<FaceCondition> conditions{
-    {"no_slip", FaceCondition::no_slip}, {"free_slip", FaceCondition::free_slip}, {"open", FaceCondition::open}};
 
 /// Bodies need the scene's spacing, and solids without one of their own.
 bool needs_spacing(const Node& root) {
@@ -34,19 +31,8 @@ void read_resolution(const TableReader& top, Draft& draft) {
   }
   const TableReader table(*node, "resolution", "resolution", top.dimension(), draft.report);
   if (needs_spacing(draft.root)) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
-  draft.spacing_good = table.read("spacing", lattice.spacing);
-  table.read_choice<sph::LatticeType>("lattice", lattice.type,
-                                      {{"cartesian", sph::LatticeType::cartesian}, {"rings", sph::LatticeType::rings}});
-  table.read("fit", lattice.fit);
-  table.read("origin", lattice.origin);
-  if (const Node* turn = table.find("rotation")) {
-    if (top.dimension() == 3) table.read("rotation", lattice.rotation);
-    else if (turn->kind == Node::Kind::array)
-      table.complain("rotation",
-                     "resolution.rotation must be a number in degrees in two dimensions: only z is left to turn about");
-    else table.read("rotation", lattice.rotation[2]);
-  }
-  table.read("jitter", lattice.jitter);
+  read_fields(table, lattice);
+  draft.spacing_good = lattice.spacing > 0;
 }
 
 void read_symmetry(const TableReader& top, Draft& draft) {
@@ -65,27 +51,11 @@ void read_symmetry(const TableReader& top, Draft& draft) {
 
 void read_scheme(const TableReader& top, Draft& draft) {
   sph::Numerics& numerics = draft.scene.fluid.numerics;
-  // In three dimensions no figure of any scene moves by more than 2e-6 in mixed precision (docs/performance.md); in one and
-  // two there is little to save.
-  numerics.precision = top.dimension() == 3 ? sph::Precision::mixed : sph::Precision::full;
   const Node* node = top.table("scheme");
-  if (!node) return;
-  const TableReader table(*node, "scheme", "scheme", top.dimension(), draft.report);
-  table.read_choice<sph::SchemeName>("name", numerics.scheme, {std::begin(sph::scheme_names), std::end(sph::scheme_names)});
-  if (numerics.scheme == sph::SchemeName::paper) numerics.kernel = sph::KernelName::gaussian;
-  Choices<sph::KernelName> kernels;
-  for (const sph::KernelName name : sph::all_kernels)
-    kernels.push_back({sph::with_kernel(name, [](auto kernel) { return kernel.name; }), name});
-  table.read_choice("kernel", numerics.kernel, kernels);
-  table.read_choice<sph::Precision>("precision", numerics.precision,
-                                    {{"full", sph::Precision::full}, {"mixed", sph::Precision::mixed}});
-  // each kernel's own usual smoothing length
-  numerics.eta = sph::with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
-  if (numerics.scheme == sph::SchemeName::monaghan_switch) numerics.beta = 2.0;
-  table.read("eta", numerics.eta);
-  table.read("alpha", numerics.alpha);
-  table.read("beta", numerics.beta);
-  table.read("alpha_min", numerics.alpha_min);
+  const Node defaults;
+  const TableReader table(node ? *node : defaults, "scheme", "scheme", top.dimension(), draft.report);
+  read_fields(table, numerics);
+  sph::apply_defaults(numerics, top.dimension(), [&](const char* key) { return table.has(key); });
   if (numerics.scheme == sph::SchemeName::monaghan_switch && !(numerics.alpha > 0.0 && numerics.alpha >= numerics.alpha_min))
     table.complain(table.has("alpha_min") ? "alpha_min" : "alpha",
                    "scheme.alpha = " + shortest(numerics.alpha) +
@@ -94,18 +64,10 @@ void read_scheme(const TableReader& top, Draft& draft) {
                        shortest(numerics.alpha_min) +
                        " with scheme.name = \"monaghan_switch\": raise "
                        "alpha or lower alpha_min (without viscosity: scheme.name = \"monaghan\")");
-  table.read_choice<sph::Integrator>("integrator", numerics.integrator,
-                                     {{"leapfrog", sph::Integrator::leapfrog}, {"ssp_rk3", sph::Integrator::ssp_rk3}});
-  numerics.courant = sph::default_courant(numerics.integrator, numerics.kernel);
-  table.read("courant", numerics.courant);
-  table.read("fixed_step", numerics.fixed_step);
-  if (table.read("local_steps", numerics.local_steps) && numerics.local_steps && numerics.integrator != sph::Integrator::leapfrog)
+  if (numerics.local_steps && numerics.integrator != sph::Integrator::leapfrog)
     table.complain("local_steps",
                    "scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; "
                    "leave one of them out");
-  table.read("signal", numerics.signal);
-  table.read("h_low", numerics.h_low);
-  table.read("h_high", numerics.h_high);
 }
 
 /// Width of the burn unless the scene says otherwise: six spacings, so that the front is smooth to the particles (a slab's
@@ -119,14 +81,9 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
   return std::max(1.5 * spacing, std::min(6.0 * spacing, way / 12.0));
 }
 
-bool is_gas(const FluidLaw& law) {
-  return std::holds_alternative<BarotropicGas>(law) || std::holds_alternative<IdealGas>(law) || std::holds_alternative<Jwl>(law);
-}
-
-/// Where the body has its pressure under gravity, and whether it can have the pressures above and below.
-void read_level(const TableReader& table, const Draft& draft, bool shape_good, bool pressure_good, sph::Body& body) {
-  Vec3 level = Vec3::Zero();
-  if (!table.read("level", level)) return;
+/// Where the body has its pressure under gravity, can it have the pressures above and below?
+void check_level(const TableReader& table, const Draft& draft, bool shape_good, const sph::Body& body) {
+  if (!body.level) return;
   const std::string path = table.path_of("level");
   const Vec3& gravity = draft.scene.fluid.gravity;
   if (gravity.isZero()) {
@@ -139,9 +96,8 @@ void read_level(const TableReader& table, const Draft& draft, bool shape_good, b
   } else if (std::holds_alternative<Jwl>(body.material.law)) {
     table.complain("level",
                    path + ": the law of '" + body.material.name + "' is that of a charge, which starts uniform; leave it out");
-  } else if (pressure_good && shape_good &&
+  } else if (body.pressure && shape_good &&
              (bounds(body.shape.base, table.dimension()).high.head(table.dimension()).array() < 1e200).all()) {
-    body.level = level;
     try {
       sph::hydrostatic_column(body, gravity, table.dimension());
     } catch (const std::domain_error& error) {
@@ -152,105 +108,88 @@ void read_level(const TableReader& table, const Draft& draft, bool shape_good, b
   }
 }
 
+/// A programmed burn as the table `of` (or nothing) says, the rest by rule; nothing where there is no such burn.
+std::optional<ProgrammedBurn> programmed(const TableReader& table, const TableReader& of, const Draft& draft, const Jwl& products,
+                                         const sph::Body& body) {
+  ProgrammedBurn burn;
+  burn.origin = middle(body.shape.base, table.dimension());
+  read_fields(of, burn);
+  const double spacing = body.spacing.value_or(draft.scene.fluid.lattice.spacing);
+  if (!of.has("width")) burn.width = burn_width(spacing, burn.origin, body.shape.base, table.dimension());
+  try {
+    const ProgrammedBurn usual = programmed_burn(products, burn.origin, burn.width);
+    if (!of.has("speed")) burn.D = usual.D;
+    if (!of.has("cj_compression")) burn.cj_compression = usual.cj_compression;
+  } catch (const std::exception& error) {  // no Chapman-Jouguet state
+    if (!of.has("cj_compression")) {
+      table.complain("material", table.path_of("material") + ": " + error.what() +
+                                     "; mend its parameters or give burn.cj_compression (0: off)");
+      return std::nullopt;
+    }
+    if (!of.has("speed")) burn.D = products.parameters().D;
+  }
+  return burn;
+}
+
 /// A charge of law jwl burns from its middle unless told otherwise; burn = "instantaneous" is short for a table.
 void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
   const auto* products = std::get_if<Jwl>(&body.material.law);
+  const Node* node = table.find("burn");
   if (!products) {
-    if (table.has("burn"))
+    if (node)
       table.complain("burn",
                      table.path_of("burn") + ": the material '" + body.material.name + "' does not burn; only law \"jwl\" does");
     return;
   }
   const Choices<bool> models{{"programmed", false}, {"instantaneous", true}};
-  const double spacing = body.spacing.value_or(draft.scene.fluid.lattice.spacing);
   bool instantaneous = false;
-  Vec3 origin = middle(body.shape.base, table.dimension());  // lit there unless the scene says otherwise
-  std::optional<double> width;
-  std::optional<double> speed, compression;
-  if (const Node* node = table.find("burn"); node && node->kind == Node::Kind::text) {
-    table.read_choice("burn", instantaneous, models);
-  } else if (node && node->kind != Node::Kind::table) {
-    table.complain("burn",
-                   table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " + node->described());
-  } else if (node) {
-    const TableReader burn(*node, table.path_of("burn"), "burn", table.dimension(), table.report());
+  const bool is_table = node && node->kind == Node::Kind::table;
+  const Node nothing;
+  const TableReader burn(is_table ? *node : nothing, table.path_of("burn"), "burn", table.dimension(), table.report());
+  if (is_table) {
     burn.read_choice("model", instantaneous, models);
     if (instantaneous)
-      for (const char* key : {"initiation", "speed", "width", "cj_compression"})
-        if (burn.has(key)) burn.complain(key, burn.path_of(key) + " means nothing where model = \"instantaneous\"; leave it out");
-    burn.read("initiation", origin);
-    burn.read("width", width);
-    burn.read("speed", speed);
-    burn.read("cj_compression", compression);
+      for (const Key& key : section("burn").keys)
+        if (std::string_view(key.name) != "model" && burn.has(key.name))
+          burn.complain(key.name, burn.path_of(key.name) + " means nothing where model = \"instantaneous\"; leave it out");
+  } else if (node && node->kind == Node::Kind::text) {
+    table.read_choice("burn", instantaneous, models);
+  } else if (node) {
+    table.complain("burn",
+                   table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " + node->described());
   }
-  if (instantaneous) return;
-  ProgrammedBurn programmed;
-  if (!width) width = burn_width(spacing, origin, body.shape.base, table.dimension());
+  if (!instantaneous) body.burn = programmed(table, burn, draft, *products, body);
+}
+
+/// Can the body have its pressure?
+void check_pressure(const TableReader& table, const sph::Body& body) {
+  if (!body.pressure || body.density) return;
   try {
-    programmed = programmed_burn(*products, origin, *width);
-  } catch (const std::exception& error) {  // no Chapman-Jouguet state
-    if (!compression) {
-      table.complain("material", table.path_of("material") + ": " + error.what() +
-                                     "; mend its parameters or give burn.cj_compression (0: off)");
-      return;
-    }
-    programmed.origin = origin;
-    programmed.width = *width;
-    programmed.D = products->parameters().D;
+    const double density = sph::start_density(body);
+    if (!(density > 0)) throw std::domain_error("it would need the density " + rounded(density) + " kg/m^3");
+  } catch (const std::exception& error) {
+    table.complain("pressure", table.path_of("pressure") + " = " + shortest(*body.pressure) + " Pa: " + error.what());
   }
-  if (speed) programmed.D = *speed;
-  if (compression) programmed.cj_compression = *compression;
-  body.burn = programmed;
 }
 
 sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
-  sph::Body body{std::to_string(index),
-                 {Sphere{Vec3::Zero(), 0}, {}},
-                 {"", "", TaitWater({}), 1000.0},
-                 {},
-                 Vec3::Zero(),
-                 {},
-                 {},
-                 {},
-                 {},
-                 false,
-                 {}};
-  table.need("name", "every body has a name");
-  table.read_name("name", body.name);
-  if (table.need("shape", "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}"))
-    shape_good = read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(),
-                            {"box", "slab", "sphere", "cylinder", "tube"}, report, body.shape.base);
-  read_subtractions(table, draft, index, body.shape.removed);
-  bool material_good = table.need("material", "e.g. material = \"water-tait\" ('undex materials' lists them)");
-  if (material_good) {
-    std::string material_path = table.path_of("material");
-    material_good = read_fluid_material(*table.find("material"), material_path, draft, body.material);
-  }
-  table.read("spacing", body.spacing);
-  table.read("velocity", body.velocity);
-  table.read("radial_velocity", body.radial_velocity);
-  const bool pressure_good = table.read("pressure", body.pressure);
-  table.read("density", body.density);
-  table.read("energy", body.energy);
+  sph::Body body;
+  body.name = std::to_string(index);
+  const Node* material = table.find("material");
+  const bool material_good = material && read_fluid_material(*material, table.path_of("material"), draft, body.material);
   body.variable_h = material_good && is_gas(body.material.law);
-  table.read("variable_h", body.variable_h);
+  read_fields(table, body);
+  if (const Node* shape = table.find("shape"))
+    shape_good = read_shape(*shape, table.path_of("shape"), table.dimension(), shape_names(), report, body.shape.base);
+  read_subtractions(table, draft, index, body.shape.removed);
   if (!material_good) return body;
   if (std::holds_alternative<StiffenedGas>(body.material.law))
     table.need("energy", "law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)");
   read_burn(table, draft, body);
-  if (pressure_good && !body.density) {
-    const auto* products = std::get_if<Jwl>(&body.material.law);
-    try {
-      const double density =
-          density_at(body.material.law, *body.pressure, body.energy.value_or(products ? products->parameters().E0 : 0.0));
-      if (!(density > 0)) throw std::domain_error("it would need the density " + rounded(density) + " kg/m^3");
-    } catch (const std::exception& error) {
-      table.complain("pressure", table.path_of("pressure") + " = " + shortest(*body.pressure) + " Pa: " + error.what());
-    }
-  }
-  read_level(table, draft, shape_good, pressure_good, body);
+  check_pressure(table, body);
+  check_level(table, draft, shape_good, body);
   if (body.energy && !uses_energy(body.material.law))
     table.complain("energy", table.path_of("energy") + ": the law of '" + body.material.name +
                                  "' is barotropic, it has no energy; leave it out");
@@ -267,32 +206,34 @@ void read_bodies(const TableReader& top, Draft& draft) {
   }
 }
 
+/// The conditions of a wall's faces: those named in `faces`, else that of the wall.
+void read_faces(const TableReader& table, FaceCondition otherwise, sph::Wall& wall) {
+  const std::vector<std::string> names = wall_faces(wall.container, table.dimension());
+  for (const std::string& name : names) wall.faces[name] = otherwise;
+  const Node* faces = table.table("faces");
+  if (!faces) return;
+  const std::string kind = std::string("faces.") + name_of(wall.container);
+  const TableReader face_table(*faces, table.path_of("faces"), kind, table.dimension(), table.report());
+  for (const Key& key : section(kind).keys) {
+    if (!face_table.has(key.name)) continue;
+    if (wall.faces.contains(key.name)) face_table.read_choice(key.name, wall.faces[key.name], choices<FaceCondition>());
+    else
+      face_table.complain(key.name, face_table.path_of(key.name) + ": in dimension = " + std::to_string(table.dimension()) +
+                                        " the wall has only the faces " + listed(names));
+  }
+}
+
 void read_wall(const Node& node, const std::string& path, Draft& draft) {
   const TableReader table(node, path, "walls", draft.scene.fluid.dimension, draft.report);
-  sph::Wall wall{.name = std::to_string(draft.wall_nodes.size()), .container = Box{Vec3::Zero(), Vec3::Zero()}, .faces = {}};
-  table.need("name", "every wall has a name");
-  table.read_name("name", wall.name);
-  const bool good = table.need("shape", "a box or cylinder round the fluid") &&
-                    read_shape(*table.find("shape"), table.path_of("shape"), table.dimension(), {"box", "cylinder"}, draft.report,
-                               wall.container);
+  sph::Wall wall;
+  wall.name = std::to_string(draft.wall_nodes.size());
+  read_fields(table, wall);
+  const Node* shape = table.find("shape");
+  const bool good =
+      shape && read_shape(*shape, table.path_of("shape"), table.dimension(), container_names(), draft.report, wall.container);
   FaceCondition otherwise = FaceCondition::free_slip;
-  table.read_choice("condition", otherwise, conditions);
-  if (good) {
-    const std::vector<std::string> names = wall_faces(wall.container, table.dimension());
-    for (const std::string& name : names) wall.faces[name] = otherwise;
-    if (const Node* faces = table.table("faces")) {
-      const char* kind = std::holds_alternative<Cylinder>(wall.container) ? "faces.cylinder" : "faces.box";
-      const TableReader face_table(*faces, table.path_of("faces"), kind, table.dimension(), draft.report);
-      for (const Key& key : section(kind).keys) {
-        if (!face_table.has(key.name.c_str())) continue;
-        if (!wall.faces.contains(key.name))
-          face_table.complain(key.name.c_str(), face_table.path_of(key.name.c_str()) +
-                                                    ": in dimension = " + std::to_string(table.dimension()) +
-                                                    " the wall has only the faces " + listed(names));
-        else face_table.read_choice(key.name.c_str(), wall.faces[key.name], conditions);
-      }
-    }
-  }
+  table.read_choice("condition", otherwise, choices<FaceCondition>());
+  if (good) read_faces(table, otherwise, wall);
   draft.scene.fluid.walls.push_back(wall);
   draft.wall_nodes.push_back(&node);
   draft.wall_shape_good.push_back(good);

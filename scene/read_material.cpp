@@ -1,21 +1,18 @@
 // Materials: a name of the scene's [materials] or of the library, or a table {law = ..., parameters} or
 // {base = "name", changed parameters}.
-#include <algorithm>
 #include <cmath>
-#include <type_traits>
 
+#include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
-#include "scene/material_fields.hpp"
 #include "scene/numbers.hpp"
+#include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/table_reader.hpp"
 
 namespace undex::scene {
 namespace {
 
 using namespace materials;
 
-const std::vector<std::string> fluid_laws{"tait", "barotropic_gas", "ideal_gas", "stiffened_gas", "jwl", "mie_gruneisen"};
 constexpr int deepest_base = 8;
 
 std::vector<std::string> with_own(std::vector<std::string> names, const Draft& draft) {
@@ -36,28 +33,15 @@ void unknown_material(const Node& node, const std::string& path, const std::stri
                                     " ('undex materials' lists them)");
 }
 
-/// Reads the fields of a law; without a base those in `needed` have to be there.
-template <class Parameters>
-void read_fields(const TableReader& table, Parameters& parameters, bool all_needed) {
-  each_field(parameters, [&](const char* key, auto& value) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Cavitation>) {
-      table.read_choice<Cavitation>(key, value,
-                                    {{"none", Cavitation::none},
-                                     {"cutoff", Cavitation::cutoff},
-                                     {"schmidt", Cavitation::schmidt},
-                                     {"isentropic", Cavitation::isentropic}});
-    } else {
-      if (all_needed && !has_default(parameters, key) && !table.need(key, "a law without 'base' needs all its parameters"))
-        return;
-      table.read(key, value);
-    }
-  });
-}
+const char* const all_of_a_law = "a law without 'base' needs all its parameters";
 
+/// Makes the law anew from the parameters that the table names, and from those of the base or the law's own for the rest.
 template <class Law>
-bool rebuild(const TableReader& table, typename Law::Parameters parameters, bool all_needed, Fluid& into) {
+bool rebuild(const TableReader& table, bool based, Fluid& into) {
+  typename Law::Parameters parameters{};
+  if (based) parameters = std::get<Law>(into.law).parameters();
   const std::size_t before = table.report().size();
-  read_fields(table, parameters, all_needed);
+  read_fields(table, parameters, !based, all_of_a_law);
   if (table.report().size() != before) return false;
   try {
     into.law = Law(parameters);
@@ -106,24 +90,18 @@ bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int 
     }
     if (!fluid_by_name(*base, path + ".base", base->text, draft, depth + 1, into)) return false;
   }
+  using Laws = Alternatives<FluidLaw>;
   if (!base && !law) {
-    report.add(node, path + " needs 'law' or 'base'; law = one of " + listed(fluid_laws));
+    report.add(node, path + " needs 'law' or 'base'; law = one of " + listed(Laws::names()));
     return false;
   }
-  const std::string base_law = std::visit([](const auto& each) { return std::string(law_name(each)); }, into.law);
-  std::string name = base_law;
-  if (law) {
-    if (law->kind != Node::Kind::text || std::find(fluid_laws.begin(), fluid_laws.end(), law->text) == fluid_laws.end()) {
-      report.add(*law, path + ".law must be one of " + listed(fluid_laws) + ", not " + law->described() +
-                           (nearest(law->text, fluid_laws).empty() ? "" : suggestion(law->text, fluid_laws)));
-      return false;
-    }
-    name = law->text;
-    if (base && name != base_law) {
-      report.add(*law, path + ".law = \"" + name + "\", but the base '" + into.name + "' is of law \"" + base_law +
-                           "\"; leave out one of them");
-      return false;
-    }
+  const std::string base_law = name_of(into.law);
+  if (law && !is_alternative(*law, path + ".law", Laws::names(), report)) return false;
+  const std::string name = law ? law->text : base_law;
+  if (base && name != base_law) {
+    report.add(*law, path + ".law = \"" + name + "\", but the base '" + into.name + "' is of law \"" + base_law +
+                         "\"; leave out one of them");
+    return false;
   }
   const std::size_t before = report.size();
   const TableReader table(node, path, "material." + name, draft.scene.fluid.dimension, report);
@@ -137,18 +115,7 @@ bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int 
   table.read("name", into.name);
   table.read("source", into.source);
   bool good = true;
-  const auto parameters_of = [&]<class Law>(typename Law::Parameters otherwise) {
-    const Law* known = base ? std::get_if<Law>(&into.law) : nullptr;
-    return known ? known->parameters() : otherwise;
-  };
-  if (name == "tait") good = rebuild<TaitWater>(table, parameters_of.operator()<TaitWater>({}), false, into);
-  else if (name == "mie_gruneisen")
-    good = rebuild<MieGruneisenWater>(table, parameters_of.operator()<MieGruneisenWater>({}), false, into);
-  else if (name == "barotropic_gas")
-    good = rebuild<BarotropicGas>(table, parameters_of.operator()<BarotropicGas>({}), !base, into);
-  else if (name == "ideal_gas") good = rebuild<IdealGas>(table, parameters_of.operator()<IdealGas>({}), !base, into);
-  else if (name == "stiffened_gas") good = rebuild<StiffenedGas>(table, parameters_of.operator()<StiffenedGas>({}), !base, into);
-  else good = rebuild<Jwl>(table, parameters_of.operator()<Jwl>({}), !base, into);
+  Laws::with(name, [&]<class Law>(std::type_identity<Law>) { good = rebuild<Law>(table, base, into); });
   return good && report.size() == before;
 }
 
@@ -174,50 +141,37 @@ bool solid_by_name(const Node& at, const std::string& path, const std::string& n
 }
 
 /// A sub-table {law = ..., parameters} of a variant of laws; without a law the present alternative is changed.
-template <class Variant, class... Laws>
-void read_law(const TableReader& solid, const char* key, const char* section_prefix, Variant& into,
-              std::type_identity<std::variant<Laws...>>) {
+template <class Variant>
+void read_law(const TableReader& solid, const char* key, Variant& into) {
+  using Laws = Alternatives<Variant>;
   const Node* node = solid.table(key);
   if (!node) return;
-  Report& report = solid.report();
   const std::string path = solid.path_of(key);
-  const std::vector<std::string> names{law_name(Laws{})...};
+  const Node* law = node->find("law");
   bool fresh = !solid.has("base");  // then all parameters have to be there
-  if (fresh && !node->find("law")) {
-    report.add(*node, path + ".law is missing; one of " + listed(names));
+  if (fresh && !law) {
+    solid.report().add(*node, path + ".law is missing; one of " + listed(Laws::names()));
     return;
   }
-  if (const Node* law = node->find("law")) {
-    if (law->kind != Node::Kind::text || std::find(names.begin(), names.end(), law->text) == names.end()) {
-      report.add(*law, path + ".law must be one of " + listed(names) + ", not " + law->described() +
-                           (nearest(law->text, names).empty() ? "" : suggestion(law->text, names)));
-      return;
-    }
-    const auto take = [&]<class Law>(Law empty) {
-      if (law->text != law_name(empty) || std::holds_alternative<Law>(into)) return;
-      into = empty;
+  if (law) {
+    if (!is_alternative(*law, path + ".law", Laws::names(), solid.report())) return;
+    Laws::with(law->text, [&]<class Law>(std::type_identity<Law>) {
+      if (std::holds_alternative<Law>(into)) return;
+      into = Law{};
       fresh = true;
-    };
-    (take(Laws{}), ...);
+    });
   }
-  std::visit(
-      [&](auto& law) {
-        const TableReader table(*node, path, section_prefix + std::string(law_name(law)), solid.dimension(), report);
-        read_fields(table, law, fresh);
-      },
-      into);
+  const TableReader table(*node, path, std::string(key) + '.' + name_of(into), solid.dimension(), solid.report());
+  std::visit([&](auto& each) { read_fields(table, each, fresh, all_of_a_law); }, into);
 }
 
 void read_spall(const TableReader& solid, Solid& into) {
   const Node* node = solid.table("spall");
   if (!node) return;
   const TableReader table(*node, solid.path_of("spall"), "spall", solid.dimension(), solid.report());
-  if (!into.spall) {
-    into.spall.emplace();
-    table.need("strength", "give the tension in Pa at which the material parts, e.g. strength = 1e9");
-  }
-  table.read("strength", into.spall->strength);
-  table.read_choice<Spall::Mode>("mode", into.spall->mode, {{"cutoff", Spall::Mode::cutoff}, {"fail", Spall::Mode::fail}});
+  const bool fresh = !into.spall;
+  if (fresh) into.spall.emplace();
+  read_fields(table, *into.spall, fresh);
 }
 
 /// Melting point, reference rate and room temperature are those of a Johnson-Cook flow stress unless named here.
@@ -225,10 +179,9 @@ void read_damage(const TableReader& solid, Solid& into) {
   const Node* node = solid.table("damage");
   if (!node) return;
   const TableReader table(*node, solid.path_of("damage"), "damage", solid.dimension(), solid.report());
-  if (!into.damage) {
+  const bool fresh = !into.damage;
+  if (fresh) {
     into.damage.emplace();
-    for (const char* key : {"D1", "D2", "D3", "D4", "D5"})
-      table.need(key, "Johnson and Cook's fracture strain needs D1 to D5; write 0 for a term that it does not have");
     if (const auto* flow = std::get_if<JohnsonCook>(&into.flow)) {
       into.damage->T_melt = flow->T_melt;
       into.damage->rate0 = flow->rate0;
@@ -237,7 +190,7 @@ void read_damage(const TableReader& solid, Solid& into) {
       table.need("T_melt", "give the melting temperature in K: only a flow stress of law \"johnson_cook\" brings one");
     }
   }
-  read_fields(table, *into.damage, false);
+  read_fields(table, *into.damage, fresh);
 }
 
 /// What is in range by itself but not together.
@@ -271,6 +224,30 @@ bool looks_solid(const Node& node, const Draft& draft, int depth) {
   return find_solid(base->text).has_value();
 }
 
+/// What no base brings has to be there, in one spelling or the other.
+void need_elasticity(const TableReader& table) {
+  if (table.has("young_modulus")) return;
+  if (!table.has("shear_modulus")) table.need("young_modulus", "give it with poisson_ratio, or give shear_modulus and pressure");
+  table.need("pressure", "e.g. pressure = {law = \"linear\", bulk_modulus = 70e9}");
+}
+
+/// Young's modulus E and Poisson's ratio nu in place of shear and bulk modulus: G = E/(2 (1 + nu)), K = E/(3 (1 - 2 nu)).
+void read_young(const TableReader& table, Solid& into) {
+  if (table.has("young_modulus") != table.has("poisson_ratio")) {
+    table.need("young_modulus", "poisson_ratio and young_modulus go together");
+    table.need("poisson_ratio", "young_modulus and poisson_ratio go together");
+    return;
+  }
+  if (!table.has("young_modulus")) return;
+  if (table.has("shear_modulus"))
+    table.complain("shear_modulus",
+                   table.path_of("shear_modulus") + " follows from young_modulus and poisson_ratio; leave it out");
+  double E = 0, nu = 0;
+  if (!(table.read("young_modulus", E) & table.read("poisson_ratio", nu))) return;
+  into.shear_modulus = E / (2 * (1 + nu));
+  if (!table.has("pressure")) into.pressure = LinearPressure{E / (3 * (1 - 2 * nu))};
+}
+
 bool read_solid_at(const Node& node, const std::string& path, Draft& draft, int depth, Solid& into) {
   Report& report = draft.report;
   if (node.kind == Node::Kind::text) return solid_by_name(node, path, node.text, draft, depth, into);
@@ -289,38 +266,14 @@ bool read_solid_at(const Node& node, const std::string& path, Draft& draft, int 
     into = Solid{};
     into.name = "solid";
     into.source = "the scene file";
-    into.flow = Elastic{};
-    table.need("rho0", "give the density in kg/m^3");
-    if (!table.has("young_modulus") && !table.has("shear_modulus"))
-      report.add(node, path + ".young_modulus is missing; give it with poisson_ratio, or give shear_modulus and pressure");
-    if (!table.has("young_modulus") && !table.has("pressure"))
-      report.add(node, path + ".pressure is missing; e.g. pressure = {law = \"linear\", bulk_modulus = 70e9}");
-    table.need("flow", "e.g. flow = {law = \"elastic\"}");
+    need_elasticity(table);
   }
-  table.read("name", into.name);
-  table.read("source", into.source);
-  table.read("rho0", into.rho0);
-  if (table.has("young_modulus") != table.has("poisson_ratio")) {
-    table.need("young_modulus", "poisson_ratio and young_modulus go together");
-    table.need("poisson_ratio", "young_modulus and poisson_ratio go together");
-  } else if (table.has("young_modulus")) {
-    if (table.has("shear_modulus"))
-      table.complain("shear_modulus", path + ".shear_modulus follows from young_modulus and poisson_ratio; leave it out");
-    double E = 0, nu = 0;
-    if (table.read("young_modulus", E) & table.read("poisson_ratio", nu)) {
-      into.shear_modulus = E / (2 * (1 + nu));
-      if (!table.has("pressure")) into.pressure = LinearPressure{E / (3 * (1 - 2 * nu))};
-    }
-  } else {
-    table.read("shear_modulus", into.shear_modulus);
-  }
-  read_law(table, "pressure", "pressure.", into.pressure, std::type_identity<SolidPressure>{});
-  read_law(table, "flow", "flow.", into.flow, std::type_identity<FlowStress>{});
+  read_fields(table, into, !table.has("base"));
+  read_young(table, into);
+  read_law(table, "pressure", into.pressure);
+  read_law(table, "flow", into.flow);
   read_spall(table, into);
   read_damage(table, into);
-  table.read("heat_capacity", into.heat_capacity);
-  table.read("taylor_quinney", into.taylor_quinney);
-  table.read("T_room", into.T_room);
   if (report.size() == before) check_together(table, into);
   return report.size() == before;
 }
@@ -346,7 +299,7 @@ void read_own_materials(Draft& draft) {
     const std::string path = "materials." + entry.key;
     if (find_fluid(entry.key) || find_solid(entry.key))
       draft.report.add(entry, path + ": the library has a material of that name; choose another one");
-    Fluid fluid{"", "", TaitWater({}), 0};
+    Fluid fluid;
     Solid solid{};
     if (looks_solid(entry.node, draft, 0)) read_solid_at(entry.node, path, draft, 0, solid);
     else read_fluid_at(entry.node, path, draft, 0, fluid);

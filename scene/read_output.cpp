@@ -1,10 +1,12 @@
 // [start], [[probes]] and [output].
 #include <algorithm>
+#include <limits>
 
 #include "core/point_values.hpp"
 #include "scene/draft.hpp"
+#include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/table_reader.hpp"
+#include "scene/toml_values.hpp"
 
 namespace undex::scene {
 namespace {
@@ -29,26 +31,21 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   const TableReader table(node, path, "probes", draft.scene.fluid.dimension, draft.report);
   Probe probe;
   probe.name = std::to_string(draft.probe_nodes.size());
-  table.need("name", "every probe has a name");
-  table.read_name("name", probe.name);
-  if (!table.has("kind")) {
-    probe.kind = draft.root.find("bodies") ? Probe::Kind::fluid : Probe::Kind::structure;
-  } else {
-    table.read_choice<Probe::Kind>(
-        "kind", probe.kind, {{"fluid", Probe::Kind::fluid}, {"wall", Probe::Kind::wall}, {"structure", Probe::Kind::structure}});
-  }
-  table.need("point", "give its position in m");
-  const bool placed = table.read("point", probe.point);
+  probe.kind = draft.root.find("bodies") ? Probe::Kind::fluid : Probe::Kind::structure;
+  probe.point.setConstant(std::numeric_limits<double>::quiet_NaN());
+  read_fields(table, probe);
   const bool in_structure = probe.kind == Probe::Kind::structure;
   const std::vector<std::string> known = in_structure ? names_of(material_quantities) : names_of(fluid_quantities);
-  probe.quantities = known;
-  table.read("quantities", probe.quantities);
-  if (probe.quantities.empty())
-    table.complain("quantities", table.path_of("quantities") + " is empty; name some of " + listed(known));
+  if (probe.quantities.empty()) {
+    const Node* none = table.find("quantities");
+    if (none && none->kind == Node::Kind::array && none->items.empty())
+      table.complain("quantities", table.path_of("quantities") + " is empty; name some of " + listed(known));
+    probe.quantities = known;
+  }
   check_words(table, "quantities", probe.quantities, known);
   draft.scene.probes.push_back(probe);
   draft.probe_nodes.push_back(&node);
-  draft.probe_good.push_back(placed);
+  draft.probe_good.push_back(probe.point.allFinite());
 }
 
 void read_output_table(const TableReader& top, Draft& draft) {
@@ -56,42 +53,30 @@ void read_output_table(const TableReader& top, Draft& draft) {
   if (!node) return;
   Output& output = draft.scene.output;
   const TableReader table(*node, "output", "output", top.dimension(), draft.report);
-  table.read("history_interval", output.history_interval);
-  table.read("field_interval", output.field_interval);
-  if (table.read("field_times", output.field_times)) std::sort(output.field_times.begin(), output.field_times.end());
-  if (table.read("particle_fields", output.particle_fields))
-    check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
-  table.read("structure_fields", output.structure_fields);
-  if (table.read("solid_fields", output.solid_fields))
-    check_words(table, "solid_fields", output.solid_fields, known_solid_fields);
+  read_fields(table, output);
+  std::sort(output.field_times.begin(), output.field_times.end());
+  check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
+  check_words(table, "solid_fields", output.solid_fields, known_solid_fields);
 }
 
-/// The keys of a plane wave; only the checks that need no geometry of others.
-void read_wave(const TableReader& table, const TableReader& top, Draft& draft) {
-  Start& start = draft.scene.start;
-  Start::Wave& wave = start.wave;
+/// A plane wave; only the checks that need no geometry of others.
+void check_wave(const TableReader& table, const TableReader& top, Draft& draft) {
+  const Start& start = draft.scene.start;
+  const Start::Wave& wave = start.wave;
   const bool asked = start.kind == Start::Kind::plane_wave;
   for (const char* key : {"axis", "towards", "front", "peak", "decay"})
     if (!asked && table.has(key))
       table.complain(key, table.path_of(key) + " is of start.kind = \"plane_wave\"; leave it out or set the kind");
   if (!asked) return;
   if (table.has("time")) table.complain("time", "start.time is of start.kind = \"spherical\"; leave it out");
-  table.need("axis", "name the axis along which the wave runs");
-  table.need("front", "give the position of the wave's front along its axis in m");
-  table.need("peak", "give the wave's largest pressure above that at rest in Pa");
-  table.need("decay", "give the time in s over which the wave falls by e");
-  table.read("front", wave.front);
-  table.read("peak", wave.peak);
-  table.read("decay", wave.decay);
-  table.read_choice<bool>("towards", wave.upward, {{"high", true}, {"low", false}});
-  if (table.read_axis("axis", wave.axis)) {
-    if (wave.axis >= top.dimension())
-      table.complain("axis", "start.axis: the scene has dimension = " + std::to_string(top.dimension()) + " and no such axis");
-    else if (draft.scene.fluid.symmetry.axis[wave.axis])
-      table.complain("axis",
-                     "start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave "
-                     "the plane out, or let the wave run along another axis");
-  }
+  const Node* axis = table.find("axis");
+  const bool axis_good = axis && axis->text == axis_name(wave.axis);
+  if (axis_good && wave.axis >= top.dimension())
+    table.complain("axis", "start.axis: the scene has dimension = " + std::to_string(top.dimension()) + " and no such axis");
+  else if (axis_good && draft.scene.fluid.symmetry.axis[wave.axis])
+    table.complain("axis",
+                   "start.axis: the wave would run through a symmetry plane, where its mirror image comes to meet it; leave "
+                   "the plane out, or let the wave run along another axis");
   const auto& bodies = draft.scene.fluid.bodies;
   if (bodies.empty()) {
     table.complain("kind", "start.kind = \"plane_wave\" needs one of [[bodies]] to run in; there is none");
@@ -112,19 +97,16 @@ void read_start(const TableReader& top, Draft& draft) {
   const Node* node = top.table("start");
   if (!node) return;
   const TableReader table(*node, "start", "start", top.dimension(), draft.report);
-  table.read_choice<Start::Kind>(
-      "kind", start.kind,
-      {{"plain", Start::Kind::plain}, {"spherical", Start::Kind::spherical}, {"plane_wave", Start::Kind::plane_wave}});
-  if (table.read("body", start.body) && !start.body.empty()) {
+  read_fields(table, start);
+  if (!start.body.empty()) {
     std::vector<std::string> names;
     for (const sph::Body& body : draft.scene.fluid.bodies) names.push_back(body.name);
     if (std::find(names.begin(), names.end(), start.body) == names.end())
       table.complain("body", "start.body: no body '" + start.body + "'" + suggestion(start.body, names));
   }
-  if (double time; table.read("time", time)) start.time = time;
   if (start.kind == Start::Kind::spherical && top.dimension() != 3)
     table.complain("kind", "start.kind = \"spherical\" needs dimension = 3");
-  read_wave(table, top, draft);
+  check_wave(table, top, draft);
 }
 
 }  // namespace

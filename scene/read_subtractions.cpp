@@ -18,12 +18,18 @@ std::vector<Part> parts_of(Draft& draft) {
   std::vector<Part> parts;
   sph::Settings& fluid = draft.scene.fluid;
   for (std::size_t i = 0; i < fluid.bodies.size(); ++i)
-    parts.push_back({"bodies." + fluid.bodies[i].name, fluid.bodies[i].name, &fluid.bodies[i].shape, draft.body_nodes[i],
-                     draft.body_shape_good[i]});
+    parts.push_back({.path = "bodies." + fluid.bodies[i].name,
+                     .name = fluid.bodies[i].name,
+                     .shape = &fluid.bodies[i].shape,
+                     .node = draft.body_nodes[i],
+                     .shape_good = draft.body_shape_good[i]});
   std::vector<solid::Body>& solids = draft.scene.solids.bodies;
   for (std::size_t i = 0; i < solids.size(); ++i)
-    parts.push_back(
-        {"solids." + solids[i].name, solids[i].name, &solids[i].shape, draft.solid_nodes[i], draft.solid_shape_good[i]});
+    parts.push_back({.path = "solids." + solids[i].name,
+                     .name = solids[i].name,
+                     .shape = &solids[i].shape,
+                     .node = draft.solid_nodes[i],
+                     .shape_good = draft.solid_shape_good[i]});
   return parts;
 }
 
@@ -43,9 +49,8 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
       draft.named_subtractions.push_back({&item, from});
       continue;
     }
-    Primitive removed = Sphere{Vec3::Zero(), 0};
-    if (read_shape(item, path + '.' + std::to_string(i), table.dimension(), {"box", "slab", "sphere", "cylinder", "tube"},
-                   table.report(), removed))
+    Primitive removed;
+    if (read_shape(item, path + '.' + std::to_string(i), table.dimension(), shape_names(), table.report(), removed))
       into.push_back(removed);
   }
 }

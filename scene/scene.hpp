@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/record.hpp"
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
 #include "scene/solution.hpp"
@@ -22,6 +23,9 @@ struct Start {
   /// obstacle, the flow is one-dimensional: it is computed on a fine one-dimensional mesh and laid on the particles then.
   /// plane_wave: one body carries a plane wave at time zero.
   enum class Kind { plain, spherical, plane_wave };
+  friend constexpr auto words(Kind) {
+    return std::to_array<Word<Kind>>({{"plain", Kind::plain}, {"spherical", Kind::spherical}, {"plane_wave", Kind::plane_wave}});
+  }
   Kind kind = Kind::plain;
   std::string body;            ///< the charge, or the body that carries the wave; default: the only spherical body of gas or
                                ///< products, the only body
@@ -35,6 +39,57 @@ struct Start {
   };
   Wave wave;  ///< of kind plane_wave
 };
+template <class Visit>
+void describe(Start& start, Visit&& visit) {
+  visit(start.kind,
+        {.name = "kind",
+         .meaning = "every body uniform at time zero; or the flow of a spherical charge computed on a fine one-dimensional "
+                    "mesh until its wave nears the first obstacle, and laid on the particles then; or one body carries a "
+                    "plane wave at time zero"});
+  const bool wave = start.kind == Start::Kind::plane_wave;
+  visit(start.body, {.name = "body",
+                     .rule = "the only spherical gas or charge; the only body",
+                     .values = "a body",
+                     .used = !start.body.empty(),
+                     .meaning = "the charge, the body round it is the medium; or the body that carries the wave"});
+  visit(start.time, {.name = "time",
+                     .unit = "s",
+                     .range = Range::above(0, 1e3),
+                     .rule = "when the front is a kernel's reach from the obstacle",
+                     .meaning = "\"spherical\": when the particles take over"});
+  visit(start.wave.axis, {.name = "axis",
+                          .needed = true,
+                          .remedy = "name the axis along which the wave runs",
+                          .form = Form::axis,
+                          .used = wave,
+                          .meaning = "\"plane_wave\": along which it runs"});
+  visit(start.wave.upward, {.name = "towards",
+                            .yes = "high",
+                            .no = "low",
+                            .used = wave,
+                            .meaning = "\"plane_wave\": to larger or to smaller coordinates"});
+  visit(start.wave.front, {.name = "front",
+                           .unit = "m",
+                           .range = Range::position(),
+                           .needed = true,
+                           .remedy = "give the position of the wave's front along its axis in m",
+                           .used = wave,
+                           .meaning = "\"plane_wave\": position of its front along the axis"});
+  visit(start.wave.peak, {.name = "peak",
+                          .unit = "Pa",
+                          .range = Range::positive(),
+                          .needed = true,
+                          .remedy = "give the wave's largest pressure above that at rest in Pa",
+                          .used = wave,
+                          .meaning = "\"plane_wave\": largest pressure above that of the body at rest, just behind the front"});
+  visit(start.wave.decay, {.name = "decay",
+                           .unit = "s",
+                           .range = Range::above(0, 1e3),
+                           .needed = true,
+                           .remedy = "give the time in s over which the wave falls by e",
+                           .used = wave,
+                           .meaning = "\"plane_wave\": it falls by e over this time's way at the speed of sound at rest"});
+}
 
 /// A point whose values are written as a history.
 struct Probe {
@@ -43,11 +98,37 @@ struct Probe {
     wall,       ///< the same at a point of a rigid wall or of the (moving) wet face or solid nearest to it
     structure,  ///< a material point of the structure or of a solid in particles
   };
+  friend constexpr auto words(Kind) {
+    return std::to_array<Word<Kind>>({{"fluid", Kind::fluid}, {"wall", Kind::wall}, {"structure", Kind::structure}});
+  }
   std::string name;
   Kind kind = Kind::fluid;
   Vec3 point = Vec3::Zero();            ///< [m]
   std::vector<std::string> quantities;  ///< of the lists in core/point_values.hpp
 };
+
+/// The quantities that a probe may ask of, for docs/scene-file.md.
+const char* quantities_in_words();
+template <class Visit>
+void describe(Probe& probe, Visit&& visit) {
+  visit(probe.name, {.name = "name",
+                     .needed = true,
+                     .remedy = "every probe has a name",
+                     .form = Form::name,
+                     .meaning = "of the history's file"});
+  visit(probe.kind,
+        {.name = "kind",
+         .rule = "\"fluid\"; \"structure\" without bodies",
+         .meaning = "a fixed point of the fluid; of a rigid wall, wet face or solid, with which it moves; a material point "
+                    "of the structure or of a solid"});
+  visit(probe.point, {.name = "point",
+                      .unit = "m",
+                      .range = Range::position(),
+                      .needed = true,
+                      .remedy = "give its position in m",
+                      .meaning = "at the start"});
+  visit(probe.quantities, {.name = "quantities", .rule = "all", .meaning = quantities_in_words()});
+}
 
 /// What is written, and how often. Zero interval: never.
 struct Output {
@@ -61,6 +142,31 @@ struct Output {
   ///< also: density, temperature, displacement, energy, damage, material,
   ///< sound_speed, mass
 };
+
+template <class Visit>
+void describe(Output& output, Visit&& visit) {
+  visit(output.history_interval, {.name = "history_interval",
+                                  .unit = "s",
+                                  .range = Range::between(0, 1e3),
+                                  .meaning = "between rows of histories; 0: every step"});
+  visit(output.field_interval, {.name = "field_interval",
+                                .unit = "s",
+                                .range = Range::between(0, 1e3),
+                                .meaning = "between snapshots of the fields; 0: none"});
+  visit(output.field_times, {.name = "field_times",
+                             .unit = "s",
+                             .range = Range::between(0, 1e3),
+                             .values = "list, 0 to 1000",
+                             .meaning = "further snapshots"});
+  visit(output.particle_fields, {.name = "particle_fields",
+                                 .values = "also \"energy\", \"smoothing_length\", \"material\", \"sound_speed\", \"mass\"",
+                                 .meaning = "in the particles' snapshots"});
+  visit(output.structure_fields, {.name = "structure_fields", .meaning = "snapshots of the structure"});
+  visit(output.solid_fields, {.name = "solid_fields",
+                              .values = "also \"density\", \"temperature\", \"displacement\", \"energy\", \"damage\", "
+                                        "\"material\", \"sound_speed\", \"mass\"",
+                              .meaning = "in the solids' snapshots; [] leaves the positions"});
+}
 
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
@@ -98,6 +204,34 @@ struct Scene {
   Output output;
   Comparison comparison;
 };
+
+template <class Visit>
+void describe(Scene& scene, Visit&& visit) {
+  visit(scene.name, {.name = "name",
+                     .rule = "the file's or its folder's name",
+                     .form = Form::name,
+                     .meaning = "names the run and its default output folder"});
+  visit(scene.title, {.name = "title", .rule = "the name", .meaning = "one line for plots and lists"});
+  visit(scene.fluid.dimension, {.name = "dimension",
+                                .range = Range::between(1, 3),
+                                .values = "1, 2, 3",
+                                .meaning = "of space; a structure needs 3, solids 2 (plane strain) or 3"});
+  visit(scene.end_time, {.name = "end_time",
+                         .unit = "s",
+                         .range = Range::above(0, 1e3),
+                         .needed = true,
+                         .remedy = "give it in s, e.g. end_time = 1e-4",
+                         .meaning = "when the run ends"});
+  visit(scene.fluid.numerics.threads, {.name = "threads", .range = Range::between(0, 4096), .meaning = "0: all the machine has"});
+  visit(scene.fluid.gravity,
+        {.name = "gravity",
+         .unit = "m/s^2",
+         .meaning = "acts on fluid, structure and solids; not across a symmetry plane that cuts any of them. With "
+                    "`start.kind` \"plain\" only"});
+  for (const char* table : {"resolution", "symmetry", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
+                            "solid_scheme", "planes", "coupling", "probes", "output", "comparison"})
+    visit(ByHand{}, {.name = table});
+}
 
 /// An override from the command line: dotted key and TOML value text, e.g. {"resolution.spacing", "0.001"}.
 struct Override {

@@ -1,19 +1,14 @@
-// Every key of a scene file, with its unit and range: the reader, the writer, the suggestions and the test of
-// docs/scene-file.md all take it from here.
+// Every key of a scene file: a view of the records of all that a scene sets, and the keys of tables that have none. The reader,
+// the writer, the suggestions and the tables of docs/scene-file.md take it from here.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace undex::scene {
+#include "core/record.hpp"
 
-struct Key {
-  std::string name;
-  std::string unit;                 ///< empty: none
-  double low = -1e30, high = 1e30;  ///< of a number, or of each component of a vector
-  bool above_low = false;           ///< must be greater than `low`, not merely at least
-};
+namespace undex::scene {
 
 /// A kind of table: "" is the top of the file, "shape.box" a shape of type "box".
 struct Section {
@@ -33,6 +28,6 @@ const Section& section(std::string_view name);
 const std::vector<Section>& study_schema();
 
 /// "greater than 0", "from 0 to 1", "at least 0".
-std::string range_in_words(const Key& key);
+std::string range_in_words(const Range& range);
 
 }  // namespace undex::scene

@@ -35,11 +35,11 @@ std::vector<double> between(double low, double high) {
 }  // namespace
 
 std::optional<Primitive> structure_shape(const fem::Mesh& mesh) {
-  if (const auto* t = std::get_if<fem::TubeMesh>(&mesh))
-    return TubeShape{t->axis, t->center, t->inner_radius, t->outer_radius, t->low, t->high};
-  if (const auto* p = std::get_if<fem::PlateMesh>(&mesh)) return Box{p->low, p->high};
-  if (const auto* r = std::get_if<fem::RodMesh>(&mesh)) return Cylinder{r->axis, r->center, r->radius, r->low, r->high};
-  return std::nullopt;
+  const auto shape = [](const auto& each) -> std::optional<Primitive> {
+    if constexpr (requires { shape_of(each); }) return shape_of(each);
+    else return std::nullopt;
+  };
+  return std::visit(shape, mesh);
 }
 
 std::vector<Vec3> face_points(const Primitive& shape, const std::string& face) {

@@ -69,9 +69,10 @@ bool TableReader::need(const char* key, const std::string& remedy) const {
 
 bool TableReader::in_range(const char* key, const Node& at, double value) const {
   const Key& limits = *section_.find(key);
-  if (std::isfinite(value) && value <= limits.high && (limits.above_low ? value > limits.low : value >= limits.low)) return true;
-  report_.add(at, path_of(key) + " = " + shortest(value) + (limits.unit.empty() ? "" : " [" + limits.unit + "]") + " must be " +
-                      range_in_words(limits));
+  if (std::isfinite(value) && limits.range.holds(value)) return true;
+  const std::string unit = limits.unit;
+  report_.add(at, path_of(key) + " = " + shortest(value) + (unit.empty() ? "" : " [" + unit + "]") + " must be " +
+                      range_in_words(limits.range));
   return false;
 }
 
@@ -79,7 +80,7 @@ bool TableReader::read(const char* key, double& into) const {
   const Node* found = find(key);
   if (!found) return false;
   if (!is_number(*found)) {
-    const std::string& unit = section_.find(key)->unit;
+    const std::string unit = section_.find(key)->unit;
     wrong_type(key, *found, "a number" + (unit.empty() ? "" : " in " + unit));
     return false;
   }
@@ -103,7 +104,7 @@ bool TableReader::read(const char* key, int& into) const {
     wrong_type(key, *found, "a whole number");
     return false;
   }
-  assert(section_.find(key)->high < 2e9);
+  assert(section_.find(key)->range.high < 2e9);
   if (!in_range(key, *found, found->number)) return false;
   into = static_cast<int>(found->number);
   return true;

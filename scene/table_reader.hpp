@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/vector.hpp"
@@ -16,7 +15,7 @@
 namespace undex::scene {
 
 template <class Enum>
-using Choices = std::vector<std::pair<const char*, Enum>>;
+using Choices = std::vector<Word<Enum>>;
 
 class TableReader {
  public:
@@ -50,7 +49,7 @@ class TableReader {
         return true;
       }
     std::vector<std::string> names;
-    for (const auto& choice : choices) names.push_back(choice.first);
+    for (const auto& choice : choices) names.push_back(choice.word);
     unknown_word(key, word, names);
     return false;
   }

@@ -71,11 +71,21 @@ class Validator {
   void collect() {
     for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) {
       const sph::Body& body = fluid_.bodies[i];
-      parts_.push_back({"bodies", body.name, &body.shape, body.spacing, draft_.body_nodes[i], draft_.body_shape_good[i]});
+      parts_.push_back({.list = "bodies",
+                        .name = body.name,
+                        .shape = &body.shape,
+                        .spacing = body.spacing,
+                        .node = draft_.body_nodes[i],
+                        .shape_good = draft_.body_shape_good[i]});
     }
     for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
       const solid::Body& solid = scene_.solids.bodies[i];
-      parts_.push_back({"solids", solid.name, &solid.shape, solid.spacing, draft_.solid_nodes[i], draft_.solid_shape_good[i]});
+      parts_.push_back({.list = "solids",
+                        .name = solid.name,
+                        .shape = &solid.shape,
+                        .spacing = solid.spacing,
+                        .node = draft_.solid_nodes[i],
+                        .shape_good = draft_.solid_shape_good[i]});
     }
   }
   bool all_usable() const { return std::find(usable_.begin(), usable_.end(), false) == usable_.end(); }

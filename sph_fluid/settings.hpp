@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/record.hpp"
 #include "core/shapes.hpp"
 #include "materials/burn.hpp"
 #include "materials/hydrostatic.hpp"
@@ -20,11 +21,30 @@
 
 namespace undex::sph {
 
+constexpr auto words(SchemeName) {
+  std::array<Word<SchemeName>, std::size(scheme_names)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {scheme_names[i].first, scheme_names[i].second};
+  return all;
+}
+inline auto words(KernelName) {
+  std::array<Word<KernelName>, std::size(all_kernels)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = {with_kernel(all_kernels[i], [](auto kernel) { return kernel.name; }), all_kernels[i]};
+  return all;
+}
+
+constexpr auto words(Precision) {
+  return std::to_array<Word<Precision>>({{"full", Precision::full}, {"mixed", Precision::mixed}});
+}
+
 /// How the fluid advances in time (docs/equations.md, section 7).
 enum class Integrator {
   leapfrog,  ///< kick-drift-kick, its one evaluation a step at a predicted state
   ssp_rk3,   ///< Runge-Kutta, strong-stability-preserving, third order: three evaluations a step
 };
+constexpr auto words(Integrator) {
+  return std::to_array<Word<Integrator>>({{"leapfrog", Integrator::leapfrog}, {"ssp_rk3", Integrator::ssp_rk3}});
+}
 
 /// Courant number of a scene that names none. C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2,
 /// where waves grow (docs/performance.md).
@@ -35,12 +55,19 @@ inline double default_courant(Integrator integrator, KernelName kernel) {
 
 /// What a wall does to the flow along it.
 enum class FaceCondition { no_slip, free_slip, open };
+constexpr auto words(FaceCondition) {
+  return std::to_array<Word<FaceCondition>>(
+      {{"no_slip", FaceCondition::no_slip}, {"free_slip", FaceCondition::free_slip}, {"open", FaceCondition::open}});
+}
 
 /// How particles are laid out at the start.
 enum class LatticeType {
   cartesian,  ///< spacing dx along each axis, particles at the cells' centres
   rings,      ///< concentric rings about an axis, fitted to a radius: quietest beside a cylindrical wall
 };
+constexpr auto words(LatticeType) {
+  return std::to_array<Word<LatticeType>>({{"cartesian", LatticeType::cartesian}, {"rings", LatticeType::rings}});
+}
 
 /// The lattice that bodies fill. One lattice serves all bodies that do not ask for a spacing of their own, so that
 /// neighbouring bodies meet without gap or overlap.
@@ -55,6 +82,34 @@ struct Lattice {
   /// Jitter of the start as a share of dx, from a fixed seed: 0 is a perfect lattice.
   double jitter = 0;
 };
+template <class Visit>
+void describe(Lattice& lattice, Visit&& visit) {
+  visit(lattice.spacing, {.name = "spacing",
+                          .unit = "m",
+                          .range = Range::length(),
+                          .rule = "required with bodies, and with solids without a spacing of their own",
+                          .used = lattice.spacing > 0,
+                          .meaning = "distance of particles, dx"});
+  visit(lattice.type, {.name = "lattice",
+                       .meaning = "\"rings\": concentric rings about an axis, quietest at a cylindrical wall; "
+                                  "not in 1D"});
+  visit(lattice.fit, {.name = "fit",
+                      .values = "name of a body or wall",
+                      .meaning = "its extents (its radius, for rings) are cut into whole spacings; rings need it, and something "
+                                 "round"});
+  visit(lattice.origin, {.name = "origin",
+                         .unit = "m",
+                         .range = Range::position(),
+                         .meaning = "without `fit`: corners of the lattice's cells lie at multiples of dx from here"});
+  visit(lattice.rotation, {.name = "rotation",
+                           .unit = "deg",
+                           .form = Form::turn,
+                           .meaning = "turns a Cartesian lattice without `fit` about `origin`: axis times angle. Bodies with a "
+                                      "spacing of their own and solids keep theirs; walls stay where they are"});
+  visit(lattice.jitter, {.name = "jitter",
+                         .range = Range::between(0, 0.5),
+                         .meaning = "random displacement of the start as a share of dx, always the same one"});
+}
 
 /// State of one particle at the start.
 struct StartState {
@@ -92,6 +147,61 @@ struct Body {
   std::optional<Vec3> level{};              ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
 };
 
+template <class Visit>
+void describe(Body& body, Visit&& visit) {
+  visit(body.name, {.name = "name", .needed = true, .remedy = "every body has a name", .form = Form::name});
+  visit(ByHand{}, {.name = "shape",
+                   .needed = true,
+                   .remedy = "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}",
+                   .values = "a [shape](#shapes)",
+                   .meaning = "its outside; bounded on all sides"});
+  visit(body.shape.removed, {.name = "subtract",
+                             .values = "list of [shapes](#shapes) and names",
+                             .meaning = "what is taken out: shapes, or the shapes of other bodies and of solids by name"});
+  visit(ByHand{}, {.name = "material",
+                   .needed = true,
+                   .remedy = "e.g. material = \"water-tait\" ('undex materials' lists them)",
+                   .values = "name or table",
+                   .meaning = "see [materials](#materials); `undex materials` lists the names"});
+  visit(body.spacing, {.name = "spacing",
+                       .unit = "m",
+                       .range = Range::length(),
+                       .rule = "that of `resolution`",
+                       .meaning = "a lattice of its own"});
+  visit(body.velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
+  visit(body.radial_velocity,
+        {.name = "radial_velocity",
+         .unit = "m/s",
+         .meaning = "at the start, away from the middle of the shape (negative: towards it); added to `velocity`"});
+  visit(body.pressure, {.name = "pressure",
+                        .unit = "Pa",
+                        .values = "attainable",
+                        .meaning = "at the start; gives the density unless that is named too"});
+  visit(body.level,
+        {.name = "level",
+         .unit = "m",
+         .range = Range::position(),
+         .rule = "none: uniform",
+         .meaning = "with `gravity`: where the body has `pressure`; above and below it the start is hydrostatic, dp = rho "
+                    "g . dx, at uniform energy"});
+  visit(body.density, {.name = "density",
+                       .unit = "kg/m^3",
+                       .range = Range::positive(),
+                       .rule = "`rho0` of the material, or from `pressure`",
+                       .meaning = "at the start"});
+  visit(body.energy, {.name = "energy",
+                      .unit = "J/kg",
+                      .rule = "the material's own (`E0` of a charge, else 0)",
+                      .meaning = "internal energy at the start; not for barotropic laws"});
+  visit(ByHand{}, {.name = "burn",
+                   .rule = "programmed, from the middle of the shape",
+                   .values = "table, \"programmed\" or \"instantaneous\"",
+                   .meaning = "how a charge (law \"jwl\") burns"});
+  visit(body.variable_h, {.name = "variable_h",
+                          .rule = "true for gases and charges, else false",
+                          .meaning = "the smoothing length follows the density"});
+}
+
 /// Specific internal energy [J/kg] of a uniform body at the start.
 inline double start_energy(const Body& body) {
   if (body.energy) return *body.energy;
@@ -126,11 +236,31 @@ struct Wall {
   Primitive container;                         ///< Box or Cylinder (the fluid's side is inside)
   std::map<std::string, FaceCondition> faces;  ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"
 };
+template <class Visit>
+void describe(Wall& wall, Visit&& visit) {
+  visit(wall.name, {.name = "name", .needed = true, .remedy = "every wall has a name", .form = Form::name});
+  visit(ByHand{}, {.name = "shape",
+                   .needed = true,
+                   .remedy = "a box or cylinder round the fluid",
+                   .values = "box or cylinder",
+                   .meaning = "the inside"});
+  visit(ByHand{}, {.name = "condition",
+                   .rule = "\"free_slip\"",
+                   .values = "\"free_slip\", \"no_slip\", \"open\"",
+                   .meaning = "of all faces not named in `faces`; \"open\": no wall there"});
+  visit(ByHand{}, {.name = "faces", .rule = "{}", .values = "table of face = condition", .meaning = "the faces below"});
+}
 
 /// Symmetry planes through the origin; the part with x[axis] >= 0 is computed.
 struct Symmetry {
   std::array<bool, 3> axis{false, false, false};
 };
+template <class Visit>
+void describe(Symmetry& symmetry, Visit&& visit) {
+  visit(symmetry.axis, {.name = "planes",
+                        .meaning = "mirror planes through the origin across these axes; only x >= 0 (y, z) is "
+                                   "computed. Shapes are given whole"});
+}
 
 /// Kernel, pair scheme and steps.
 struct Numerics {
@@ -151,6 +281,75 @@ struct Numerics {
   double signal = 1e-12;
   int threads = 0;  ///< 0: all the machine has
 };
+
+/// Defaults of parameters that depend on others; given(key): does the scene name it? In three dimensions no figure of any scene
+/// moves by more than 2e-6 in mixed precision (docs/performance.md); in one and two there is little to save.
+void apply_defaults(Numerics& numerics, int dimension, auto&& given) {
+  if (!given("kernel") && numerics.scheme == SchemeName::paper) numerics.kernel = KernelName::gaussian;
+  if (!given("precision")) numerics.precision = dimension == 3 ? Precision::mixed : Precision::full;
+  if (!given("eta")) numerics.eta = with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
+  if (!given("beta") && numerics.scheme == SchemeName::monaghan_switch) numerics.beta = 2.0;
+  if (!given("courant")) numerics.courant = default_courant(numerics.integrator, numerics.kernel);
+}
+
+template <class Visit>
+void describe(Numerics& numerics, Visit&& visit) {
+  visit(numerics.scheme,
+        {.name = "name",
+         .meaning = "limited reconstruction and a Riemann flux per pair of particles, plain or with corrected kernel "
+                    "gradients; artificial viscosity, with one coefficient, or one per particle that rises where it "
+                    "is compressed, or with the paper's walls: [equations](equations.md#3-pair-schemes)"});
+  visit(numerics.kernel, {.name = "kernel",
+                          .rule = "\"wendland_c2\"; paper \"gaussian\"",
+                          .meaning = "smoothing kernel; radius 2h, of the quintic spline and the Gaussian 3h"});
+  visit(numerics.precision,
+        {.name = "precision",
+         .rule = "\"mixed\" in three dimensions, else \"full\"",
+         .meaning = "numbers of the loop over pairs: double, or single on places relative to a few neighbours "
+                    "(state stays double); what it costs in error: [performance](performance.md#mixed-precision). "
+                    "Spacings from 2e-5 m on"});
+  visit(numerics.eta, {.name = "eta",
+                       .range = Range::between(0.8, 3),
+                       .rule = "1.5; wendland_c4 1.75, wendland_c6 2, cubic_spline 1.325, quintic_spline 1.1, gaussian 1.2",
+                       .meaning = "smoothing length h/dx"});
+  visit(numerics.alpha, {.name = "alpha",
+                         .range = Range::between(0, 100),
+                         .meaning = "artificial viscosity: its linear coefficient; \"monaghan_switch\": the upper bound"});
+  visit(numerics.beta, {.name = "beta",
+                        .range = Range::between(0, 1000),
+                        .rule = "10; monaghan_switch 2",
+                        .meaning = "its quadratic coefficient; \"monaghan_switch\": where alpha is at its bound, elsewhere in "
+                                   "proportion"});
+  visit(numerics.alpha_min,
+        {.name = "alpha_min", .range = Range::between(0, 100), .meaning = "\"monaghan_switch\": the lower bound, up to `alpha`"});
+  visit(numerics.integrator,
+        {.name = "integrator",
+         .meaning = "one evaluation of the pairs a step, second order in time; or a Runge-Kutta method of third "
+                    "order with three, at about twice the step: [what it "
+                    "gains](performance.md#runge-kutta-instead-of-the-leapfrog)"});
+  visit(numerics.courant, {.name = "courant",
+                           .range = Range::above(0, 2),
+                           .rule = "0.35; wendland_c6 0.27; ssp_rk3 twice that",
+                           .meaning = "Courant number of the step: share of h over the signal speed"});
+  visit(numerics.fixed_step, {.name = "fixed_step",
+                              .unit = "s",
+                              .range = Range::above(0, 1),
+                              .meaning = "a fixed step in place of the Courant-limited one"});
+  visit(
+      numerics.local_steps,
+      {.name = "local_steps",
+       .used = numerics.integrator == Integrator::leapfrog,
+       .meaning = "may bodies whose stable step is less than half the others' take several substeps in one of theirs, where that "
+                  "saves work? [What it gains](performance.md#local-steps). With \"leapfrog\" and without `fixed_step` only"});
+  visit(numerics.signal, {.name = "signal",
+                          .range = Range::between(0, 0.1),
+                          .meaning = "particles at rest are left out until a signal of this share of the sound speed (or of the "
+                                     "density) comes within reach; 0: never left out. Nobody is left out where a wall moves or a "
+                                     "charge burns"});
+  visit(numerics.h_low,
+        {.name = "h_low", .range = Range::between(0.1, 1), .meaning = "where h follows density: least h over its start"});
+  visit(numerics.h_high, {.name = "h_high", .range = Range::between(1, 20), .meaning = "and the largest"});
+}
 
 struct Settings {
   int dimension = 3;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/record.hpp"
 #include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
 #include "materials/solid.hpp"
@@ -18,6 +19,10 @@ enum class Description {
   total_lagrangian,    ///< those of the start, for ever: no tensile instability, and no fragments
   updated_lagrangian,  ///< those of the moment: any deformation, and fracture
 };
+constexpr auto words(Description) {
+  return std::to_array<Word<Description>>(
+      {{"total_lagrangian", Description::total_lagrangian}, {"updated_lagrangian", Description::updated_lagrangian}});
+}
 
 /// A solid in particles (solids.hpp).
 struct Body {
@@ -36,6 +41,52 @@ struct Body {
   /// water's kernel reaches is not shown to it. Empty: every face.
   std::vector<std::string> wet;
 };
+template <class Visit>
+void describe(Body& solid, Visit&& visit) {
+  visit(solid.name, {.name = "name",
+                     .needed = true,
+                     .remedy = "every solid has a name",
+                     .form = Form::name,
+                     .meaning = "different from all bodies'"});
+  visit(ByHand{}, {.name = "shape",
+                   .needed = true,
+                   .remedy = "e.g. shape = {type = \"sphere\", radius = 0.01}",
+                   .values = "a [shape](#shapes)",
+                   .meaning = "its outside; not a slab"});
+  visit(solid.shape.removed, {.name = "subtract",
+                              .values = "list of [shapes](#shapes) and names",
+                              .meaning = "what is taken out, as for [bodies](#bodies)"});
+  visit(ByHand{}, {.name = "material",
+                   .needed = true,
+                   .remedy = "e.g. material = \"al-5083-h116\" ('undex materials' lists them)",
+                   .values = "a solid",
+                   .meaning = "see [materials](#materials)"});
+  visit(solid.description,
+        {.name = "description",
+         .meaning = "whom a particle calls its neighbours: those of the start for ever (no tensile instability, "
+                    "no fragments), or those of the moment (any deformation, and fracture)"});
+  visit(solid.spacing, {.name = "spacing",
+                        .unit = "m",
+                        .range = Range::length(),
+                        .rule = "that of `resolution`",
+                        .meaning = "a distance of particles of its own"});
+  visit(solid.lattice, {.name = "lattice",
+                        .rule = "\"rings\" for cylinders and tubes, else \"cartesian\"",
+                        .meaning = "rings follow a curved surface; in 2D a cylinder or tube with axis \"z\" has them"});
+  visit(solid.velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
+  visit(solid.spin,
+        {.name = "spin", .unit = "rad/s", .form = Form::turn, .meaning = "at the start, about the middle of the shape"});
+  visit(solid.residual_stress,
+        {.name = "residual_stress",
+         .unit = "Pa",
+         .meaning = "S of a stress in equilibrium at the start: S (1 - r^2/R^2) radial, S (1 - 3 r^2/R^2) along "
+                    "the circumference; whole cylinders, in 2D discs"});
+  visit(solid.wet,
+        {.name = "wet",
+         .values = "list of faces",
+         .meaning = "those that water touches; empty: all of them. What lies deeper behind them than the water's kernel "
+                    "reaches is not shown to it"});
+}
 
 /// Kernel (Wendland's) and steps of solid particles.
 struct Numerics {
@@ -47,6 +98,30 @@ struct Numerics {
   double alpha = 1.0, beta = 2.0;  ///< updated Lagrangian: viscosity of pairs (solid_schemes.hpp)
   double artificial_stress = 0.3;  ///< updated Lagrangian: share of a tension that repels particles nearer than a spacing
 };
+template <class Visit>
+void describe(Numerics& numerics, Visit&& visit) {
+  visit(numerics.eta,
+        {.name = "eta", .range = Range::between(0.8, 3), .meaning = "smoothing length h/dx of the solids' kernel (Wendland's)"});
+  visit(numerics.courant, {.name = "courant",
+                           .range = Range::above(0, 1),
+                           .meaning = "share of the stable step, as estimated from h and the longitudinal wave"});
+  visit(numerics.linear_viscosity, {.name = "linear_viscosity",
+                                    .range = Range::between(0, 10),
+                                    .meaning = "total Lagrangian: bulk viscosity on compression, as the structure's"});
+  visit(numerics.quadratic_viscosity,
+        {.name = "quadratic_viscosity", .range = Range::between(0, 100), .meaning = "and its quadratic term"});
+  visit(numerics.hourglass,
+        {.name = "hourglass",
+         .range = Range::between(0, 10),
+         .meaning = "total Lagrangian: stiffness of motions that no deformation gradient sees, in shear moduli"});
+  visit(numerics.alpha, {.name = "alpha",
+                         .range = Range::between(0, 100),
+                         .meaning = "updated Lagrangian and contact: linear coefficient of Monaghan's viscosity"});
+  visit(numerics.beta, {.name = "beta", .range = Range::between(0, 1000), .meaning = "and the quadratic one"});
+  visit(numerics.artificial_stress, {.name = "artificial_stress",
+                                     .range = Range::between(0, 1),
+                                     .meaning = "updated Lagrangian: share of a tension that keeps particles from clumping"});
+}
 
 struct Settings {
   std::vector<Body> bodies;

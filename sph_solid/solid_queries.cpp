@@ -173,10 +173,10 @@ BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
   return snapshot;
 }
 
-MovingWall Solids::wet_wall(bool free_slip) const {
+sph::LinedWall Solids::wet_wall(bool free_slip) const {
   const Implementation& s = *self_;
   const std::size_t n = s.wet_particles.size();
-  MovingWall wall;
+  sph::LinedWall wall;
   wall.free_slip = free_slip;
   for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(n, Vec3::Zero());
   wall.volume.resize(n);
@@ -184,7 +184,7 @@ MovingWall Solids::wet_wall(bool free_slip) const {
   return wall;
 }
 
-void Solids::move_wall(MovingWall& wall, double ahead) const {
+void Solids::move_wall(sph::LinedWall& wall, double ahead) const {
   const Implementation& s = *self_;
   const SolidParticles& p = s.particles;
 #pragma omp parallel for schedule(static)

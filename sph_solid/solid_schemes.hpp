@@ -15,7 +15,6 @@
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
-#include "sph_fluid/pairs/moment_inverse.hpp"
 
 namespace undex::solid::UNDEX_LEVEL {
 
@@ -74,19 +73,23 @@ struct VelocityGradient {
   }
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 
-  /// Fragments of too few particles have no inverse: they get the uncorrected sums.
+  /// Fragments of too few particles have no inverse: they get the uncorrected sums. (Written out, not by adjugate() of
+  /// moment_inverse.hpp: the compiler would fuse other products, and results differ by round-off.)
   void store(const Vec<double>* s, bool, const PairInput& in, std::uint32_t first, int count) const {
     DeformationRow* out = in.deformation + first;
     for (int l = 0; l < count; ++l) {
-      const double moments[6] = {s[0][l], s[1][l], s[2][l], s[3][l], s[4][l], s[5][l]};
-      const Adjugate<double> a = adjugate(moments, dimension, 1.0);
+      const double xx = s[0][l], yy = dimension < 2 ? 1.0 : s[1][l], zz = dimension < 3 ? 1.0 : s[2][l], xy = s[3][l],
+                   yz = s[4][l], zx = s[5][l];
+      const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
+      const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
+      const double determinant = xx * a + xy * b + zx * c;
       // A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
       constexpr double least = 0.015;
-      const double part = a.determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
-      const double inverse = a.determinant > 0.0 ? trust / a.determinant : 0.0, rest = 1.0 - trust;
+      const double part = determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
+      const double inverse = determinant > 0.0 ? trust / determinant : 0.0, rest = 1.0 - trust;
       double* B = out[l].correction;
-      B[0] = a.xx * inverse + rest, B[1] = a.yy * inverse + rest, B[2] = a.zz * inverse + rest;
-      B[3] = a.xy * inverse, B[4] = a.yz * inverse, B[5] = a.zx * inverse;
+      B[0] = a * inverse + rest, B[1] = d * inverse + rest, B[2] = f * inverse + rest;
+      B[3] = b * inverse, B[4] = e * inverse, B[5] = c * inverse;
       for (int r = 0; r < 3; ++r) {
         const double gx = s[6 + 3 * r][l], gy = s[7 + 3 * r][l], gz = s[8 + 3 * r][l];
         out[l].gradient[3 * r] = gx * B[0] + gy * B[3] + gz * B[5];
@@ -164,13 +167,13 @@ struct SolidForces {
     // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
     const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
     const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
-    const V repulsive = keep(pair.near, repulsion * tension * maximum(nearness * nearness - 1, V{}));
+    const V repulsive = keep(pair.in_reach, repulsion * tension * maximum(nearness * nearness - 1, V{}));
     const V central = F * (viscous + repulsive);
     add_force(central, pair, i.volume, j.volume, si, sj);
     const V power = T(0.5) * central * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V closing = keep(pair.near, -mu);
+    const V closing = keep(pair.in_reach, -mu);
     si.closing = maximum(si.closing, closing);
     sj.closing = maximum(sj.closing, closing);
   }
@@ -222,7 +225,7 @@ struct ContactForces {
     const V power = T(0.5) * pair.F * damped * vr;
     si.heat += j.volume * power;
     sj.heat += i.volume * power;
-    const V speed = keep(pair.near, closing);
+    const V speed = keep(pair.in_reach, closing);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
   }

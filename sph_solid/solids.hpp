@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/deformable_body.hpp"
-#include "sph_fluid/water/fluid.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_solid/settings.hpp"
 
 namespace undex::solid {
@@ -77,8 +77,8 @@ class Solids : public DeformableBody {
   /// The particles that water may meet: indices, and a moving wall made of them (`ahead` [s] from now at the present
   /// acceleration).
   const std::vector<std::uint32_t>& wet_particles() const;
-  sph::MovingWall wet_wall(bool free_slip) const;
-  void move_wall(sph::MovingWall& wall, double ahead) const;
+  sph::LinedWall wet_wall(bool free_slip) const;
+  void move_wall(sph::LinedWall& wall, double ahead) const;
 
   struct Implementation;  ///< for the passes' own files
 

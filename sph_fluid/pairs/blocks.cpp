@@ -71,7 +71,7 @@ void BlockOrder::build(const std::vector<GroupView>& groups, double reach) {
         const std::uint32_t here = slot;
         slot = clusters;
         clusters += here;
-        blocks_.push_back({slot, clusters, iy, iz});
+        blocks_.push_back({.begin = slot, .end = clusters, .iy = iy, .iz = iz});
       }
   rank_.assign(next_.size(), std::uint32_t(blocks_.size()));
   for (std::size_t b = 0; b < blocks_.size(); ++b)

@@ -214,7 +214,7 @@ class CandidateList {
 
   /// Adds what candidates begin..real have received to the rows of the particles that they are, mirrored back.
   template <class Sums, class Row>
-  UNDEX_INLINE void hand_out(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
+  UNDEX_INLINE void scatter_sums(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
     constexpr int length = Sums::count;
     double part[D][length + D];
     for (std::uint32_t c = begin; c < real; c += D) {

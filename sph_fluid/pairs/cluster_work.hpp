@@ -61,12 +61,12 @@ struct ConstantH {
         reach2(T(k.support * k.support * h * h)) {}
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
     pair.h = broadcast(h_);
-    pair.near = pair.r2 < reach2;
+    pair.in_reach = pair.r2 < reach2;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.near, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
+      pair.F = keep(pair.in_reach, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
     } else {
-      pair.F = keep(pair.near, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
+      pair.F = keep(pair.in_reach, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
     }
   }
 };
@@ -85,7 +85,7 @@ struct PairH {
     const T support = T(kernel.support);
     const V h = T(0.5) * (h_i + load(h_j));
     pair.h = h;
-    pair.near = pair.r2 < support * support * (h * h);
+    pair.in_reach = pair.r2 < support * support * (h * h);
     const V inverse_h = reciprocal(h);
     V scale = norm * (inverse_h * inverse_h * inverse_h);
     if (dimension > 1) scale *= inverse_h;
@@ -93,11 +93,11 @@ struct PairH {
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
       pair.F =
-          keep(pair.near,
+          keep(pair.in_reach,
                scale * kernel.template gradient_of_root<T>(minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
     } else {
       pair.F =
-          keep(pair.near,
+          keep(pair.in_reach,
                scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support))));
     }
   }
@@ -202,7 +202,7 @@ class ClusterWork {
     pairs_with<State, Sums, Pass::symmetric>(kind);
     if constexpr (Pass::symmetric)
       for (int k = 0; k < count; ++k)
-        list_.template hand_out<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
+        list_.template scatter_sums<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
   }
 
   void with_walls() {
@@ -218,7 +218,7 @@ class ClusterWork {
       list_.template fill_rows<List::state>(0, in_.wall, image);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
-        list_.template hand_out<WallSums<V>>(0, real, out_.wall, image);
+        list_.template scatter_sums<WallSums<V>>(0, real, out_.wall, image);
       } else {
         pairs_with<Wall, WallSums<V>, false>(kind);
       }
@@ -278,10 +278,10 @@ class ClusterWork {
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
       smoothing.evaluate(pair, block + List::state + 7 * W);
       if constexpr (wall || !Pass::symmetric) {
-        met += keep(pair.near, broadcast(T(0.5)));
+        met += keep(pair.in_reach, broadcast(T(0.5)));
       } else {
         const V weight = load(block + List::weight);
-        met += keep(pair.near, weight);
+        met += keep(pair.in_reach, weight);
         pair.F *= weight;
       }
       OtherSums sj;

@@ -13,9 +13,9 @@ enum class Partners { all, own_body, other_bodies };
 template <class V>
 struct Pair {
   V dx, dy, dz, r2, h, F;
-  Mask<Element<V>> near;  ///< within the kernel's support; F is zero elsewhere
-  bool gas;               ///< is one of them gas?
-  bool alike;             ///< are they of one material?
+  Mask<Element<V>> in_reach;  ///< within the kernel's support; F is zero elsewhere
+  bool gas;                   ///< is one of them gas?
+  bool alike;                 ///< are they of one material?
 };
 
 /// A fluid particle; `read(k)` gives entry k of its row.

@@ -29,7 +29,7 @@ struct CellGrid {
   const std::uint32_t* start;          ///< count[0]*count[1]*count[2] + 1 entries; first particle of each cell, x fastest
 };
 
-/// Which pairs a pass takes where bodies have steps of their own (local_steps.cpp).
+/// Which pairs a pass takes where bodies have steps of their own (local_steps.hpp).
 enum class PairChoice : int {
   all,
   slow,  ///< of two slow particles

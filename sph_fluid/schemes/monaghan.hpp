@@ -32,7 +32,7 @@ struct Monaghan {
     const V reach = pair.r2 + T(0.01) * (pair.h * pair.h);
     const V inverse = reciprocal(reach * density);
     const V mu = pair.h * minimum(vr, V{}) * (inverse * density);
-    closing = keep(pair.near, -mu);
+    closing = keep(pair.in_reach, -mu);
     return product * mu * (2 * beta * mu - alpha * sound) * (inverse * reach);
   }
 
@@ -55,7 +55,7 @@ struct Monaghan {
   /// The same against a wall.
   UNDEX_INLINE void wall_exchange(const FluidState<V>& i, const Wall& w, const Pair<V>& pair, V share, Sums& si,
                                   WallSums<V>& sw) const {
-    const Mirrored<V> m = mirrored(i, w, pair);
+    const WallPair<V> m = wall_pair(i, w, pair);
     V closing;
     const V viscous = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
     add_wall_force(pair.F * (2 * i.p + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);

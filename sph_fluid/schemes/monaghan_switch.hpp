@@ -2,7 +2,7 @@
 // where the fluid is compressed and decays behind a shock within a few smoothing lengths:
 //   d alpha_i/dt = -(alpha_i - alpha_min)/tau + S (alpha_max - alpha_i),   tau = h/(0.2 c),   S = max((d rho/dt)/rho, 0)
 // with the source of Rosswog et al. 2000, Astron. Astrophys. 360, 171, that cannot carry alpha beyond its bound. A pair has the
-// mean of its two coefficients and beta in the fixed ratio to alpha. The coefficients' own motion is in solver_step.cpp; no
+// mean of its two coefficients and beta in the fixed ratio to alpha. The coefficients' own motion is in water.cpp; no
 // factor for shear (Balsara's needs the curl, three more sums a particle; explosions compress far more than they shear).
 #pragma once
 

@@ -19,7 +19,7 @@ struct Paper : Monaghan<T> {
   using typename Base::V, typename Base::State, typename Base::Wall, typename Base::Sums;
 
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
-    const Mirrored<V> m = mirrored(i, w, pair);
+    const WallPair<V> m = wall_pair(i, w, pair);
     const V approach = T(0.5) * m.approach;  // of the particle and the wall itself
     V closing;
     const V viscous = this->viscosity(approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);

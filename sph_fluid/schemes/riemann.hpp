@@ -116,21 +116,21 @@ struct Riemann {
     sj.compression += Cj;
     si.heat += Di * p_star - Ci * i.p;
     sj.heat += Dj * p_star - Cj * j.p;
-    const V speed = keep(pair.near, -u);
+    const V speed = keep(pair.in_reach, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
   }
 
   /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own.
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
-    const Mirrored<V> m = mirrored(i, w, pair);
+    const WallPair<V> m = wall_pair(i, w, pair);
     const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V p_star = maximum(i.p + T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho * i.c * jump, V{});
     add_wall_force(2 * pair.F * p_star, m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * m.approach;
     si.compression += D;
     si.heat += D * (p_star - i.p);
-    si.closing = maximum(si.closing, keep(pair.near, jump));
+    si.closing = maximum(si.closing, keep(pair.in_reach, jump));
   }
 };
 

@@ -101,21 +101,21 @@ struct RiemannCorrected {
     sj.compression += Cj;
     si.heat += Di * p_star - Ci * i.p;
     sj.heat += Dj * p_star - Cj * j.p;
-    const V speed = keep(pair.near, -u);
+    const V speed = keep(pair.in_reach, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
   }
 
   /// As in riemann.hpp, with the wall's velocity for v*.
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
-    const V jump = -mirrored(i, w, pair).approach * reciprocal_sqrt(pair.r2 + T(1e-30));
+    const V jump = -wall_pair(i, w, pair).approach * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V p_star = maximum(i.p + T(0.5) * Plain::switched(maximum(jump, V{}), i.c) * i.rho * i.c * jump, V{});
-    const Mirrored<V> g = mirrored(i, w, bent(pair, i.B));
+    const WallPair<V> g = wall_pair(i, w, bent(pair, i.B));
     add_wall_force(2 * pair.F * p_star, g.ex, g.ey, g.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * g.approach;
     si.compression += D;
     si.heat += D * (p_star - i.p);
-    si.closing = maximum(si.closing, keep(pair.near, jump));
+    si.closing = maximum(si.closing, keep(pair.in_reach, jump));
   }
 };
 

@@ -16,18 +16,18 @@ UNDEX_INLINE V stick_of(V slip) {
 /// the wall is exactly the energy that the fluid gives). Behind an edge of two free-slip faces both see what is across the
 /// edge, behind a corner of three all of it.
 template <class V>
-struct Mirrored {
+struct WallPair {
   V approach;    ///< v_ij . x_ij [m^2/s]
   V ex, ey, ez;  ///< [m]
 };
 
 template <class V>
-UNDEX_INLINE Mirrored<V> mirrored(const FluidState<V>& i, const WallState<V>& w, const Pair<V>& pair) {
+UNDEX_INLINE WallPair<V> wall_pair(const FluidState<V>& i, const WallState<V>& w, const Pair<V>& pair) {
   const V ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
   const V stick = stick_of(w.slip);
   const V un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
   const V xn = w.slip * (pair.dx * w.nx + pair.dy * w.ny + pair.dz * w.nz);
-  Mirrored<V> m;
+  WallPair<V> m;
   m.approach = 2 * ((un * w.nx + stick * ux) * pair.dx + (un * w.ny + stick * uy) * pair.dy + (un * w.nz + stick * uz) * pair.dz);
   m.ex = xn * w.nx + stick * pair.dx;
   m.ey = xn * w.ny + stick * pair.dy;

@@ -59,7 +59,7 @@ std::vector<Vec3> Footprint::seen(std::span<const Vec3> nodal) const {
   return result;
 }
 
-void Footprint::hand_on(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const {
+void Footprint::spread(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const {
   for (std::size_t n = 0; n < nodal.size(); ++n)
     for (std::size_t k = begin_[n]; k < begin_[n + 1]; ++k)
       sum[shares_[k].node] += shares_[k].weight * mirrored(nodal[n], shares_[k].mirror);

@@ -23,7 +23,7 @@ class Footprint {
   /// S v.
   std::vector<Vec3> seen(std::span<const Vec3> nodal) const;
   /// Adds S^T f to `sum`.
-  void hand_on(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const;
+  void spread(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const;
 
  private:
   struct Share {

@@ -67,7 +67,8 @@ void Particles::turn_rates() {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < size(); ++i) {
     const SumRow& r = rate[i];
-    if (!earlier.empty()) earlier[i] = {float(r.fx), float(r.fy), float(r.fz), float(r.compression)};
+    if (!earlier.empty())
+      earlier[i] = {.ax = float(r.fx), .ay = float(r.fy), .az = float(r.fz), .compression = float(r.compression)};
     rate[i] = SumRow{};
   }
 }

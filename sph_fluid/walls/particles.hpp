@@ -112,11 +112,12 @@ struct ArrayOf {
 
 inline constexpr auto state_arrays = [] {
   using S = ParticleState;
-  return std::tuple(ArrayOf<S, double, 3>{"position", Role::state, {&S::x, &S::y, &S::z}, Vector::place},
-                    ArrayOf<S, double, 3>{"velocity", Role::state, {&S::vx, &S::vy, &S::vz}, Vector::velocity},
-                    ArrayOf<S, double, 1>{"density", Role::state, {&S::rho}},
-                    ArrayOf<S, double, 1>{"energy", Role::state, {&S::energy}},
-                    ArrayOf<S, ViscosityRow, 1>{"viscosity", Role::state, {&S::viscosity}});
+  return std::tuple(
+      ArrayOf<S, double, 3>{.name = "position", .role = Role::state, .member = {&S::x, &S::y, &S::z}, .kind = Vector::place},
+      ArrayOf<S, double, 3>{
+          .name = "velocity", .role = Role::state, .member = {&S::vx, &S::vy, &S::vz}, .kind = Vector::velocity},
+      ArrayOf<S, double, 1>{"density", Role::state, {&S::rho}}, ArrayOf<S, double, 1>{"energy", Role::state, {&S::energy}},
+      ArrayOf<S, ViscosityRow, 1>{"viscosity", Role::state, {&S::viscosity}});
 }();
 
 inline constexpr auto further_arrays = [] {

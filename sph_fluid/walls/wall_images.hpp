@@ -14,66 +14,34 @@
 
 #include "core/vector.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
-#include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/walls/footprint.hpp"
+#include "sph_fluid/walls/mirror_feet.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/particles.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::sph {
 
-/// The free-slip faces of the scene's containers.
-struct SlipFaces {
-  /// Faces across one axis; either may be missing. Between both stand images of images, as in two mirrors.
-  struct Pair {
-    int axis;
-    double low, high;  ///< [m]; -+1e300 where there is none
-    bool symmetric;    ///< is `low` a symmetry plane, whose own images are not stored?
-    Bounds window;     ///< of the container
-  };
-  std::vector<Cylinder> round;  ///< their sides
-  std::vector<Pair> plane;
-};
-SlipFaces slip_faces(const Settings& settings);
-
-/// A lower bound of the distance [m] between particles within a box and any slip wall, rigid or moving.
-double clearance(const SlipFaces& faces, const std::vector<MovingWall>& moving, const Bounds& box);
-
-/// Does the scheme mirror the fluid in slip walls? (The published one lines them with dummy particles.)
-constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::paper; }
-
-/// A particle's foot on a moving wall's mesh: x = foot - distance * normal, both interpolated between the nodes.
-struct Foot {
-  std::uint32_t particle;
-  int wall, face;
-  double u, v, distance;  ///< [m], positive on the fluid's side
-};
-
 class WallImages {
  public:
-  /// Images of a range of particles sorted by `cells`.
-  struct Range {
-    std::uint32_t first, last;  ///< particles
-    const CellList* cells;
-    double width;  ///< of the images' cells [m]
-    double depth;  ///< particles nearer to a wall than this have images [m]
-  };
-  /// Finds the images of particles.
-  void build(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving, const Particles& particles,
-             std::span<const Range> ranges);
+  /// Finds the images of ranges of particles.
+  void build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Particles& particles,
+             std::span<const ParticleRange> ranges);
 
-  /// A particle beyond a wall changes places with its image; what it loses of its momentum is `received` by the walls,
-  /// per moving wall and node [N s], and returned is the work on them [J]. Uses the feet of the last build.
-  double put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MovingWall>& moving, Particles& particles,
-                  std::vector<std::vector<Vec3>>& received) const;
+  /// A particle beyond a wall changes places with its image; what it loses of its momentum is added to `received` [N s], and
+  /// returned is the work on moving walls [J]. Uses the feet of the last build.
+  double put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, Particles& particles,
+                  PointLoads& received) const;
 
   /// Particles are sorted anew: no images, no feet.
   void forget();
 
   /// Rows of the images from those of the particles: all but gradients, and these.
-  void mirror_rows(const Particles& particles);
-  void mirror_gradients(const Particles& particles);
-  /// Hands what the images have received back to the particles, and the walls' share to `force`, per moving wall and node [N].
-  /// Returns the power on the moving walls [W].
-  double hand_back(Particles& particles, const std::vector<MovingWall>& moving, std::vector<std::vector<Vec3>>& force);
+  void reflect_rows(const Particles& particles);
+  void reflect_gradients(const Particles& particles);
+  /// Adds what the images have received to the sums of the particles that they show, and the walls' share to `force` [N]. Returns
+  /// the power on moving walls [W].
+  double scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force);
 
   std::size_t size() const { return images_.size(); }
   /// Images of range r: from first to last of the arrays below, sorted by cell.
@@ -91,15 +59,26 @@ class WallImages {
     double stretch;                     // volume over the parent's
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
   };
-  void find_feet(const Settings& settings, const std::vector<MovingWall>& moving, const Particles& particles,
-                 std::span<const Range> ranges);
+  void see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls);
+  /// Appends the images of particle i to `images`, whose places the parents are.
+  void add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces, double depth,
+                     int dimension, std::vector<Image>& images) const;
+  void add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
+                 int dimension);
+  /// Sorts the images from `start` on by cell.
+  void sort_from(std::uint32_t start, double width, CellList& cells);
+  /// Calls visit(image) from the particle's own image on to image c of it.
+  template <class Visit>
+  void for_each_mirror(std::uint32_t c, Visit visit) const;
+  double put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
+                               PointLoads& received) const;
+  /// What image k has received goes to whom it shows; returned is the wall's share [N].
+  Vec3 scatter_one(std::uint32_t k, Particles& particles);
 
-  std::vector<Footprint> footprints_;          // per moving wall
-  std::vector<std::vector<Vec3>> normals_;     // per moving wall and node, as the next
-  std::vector<std::vector<Vec3>> velocities_;  // that the feet see
-  std::vector<Foot> feet_;                     // sorted by particle
-  std::vector<Image> images_;                  // by particle, parents before their images
-  std::vector<std::uint32_t> slot_;            // place of an image in the arrays below
+  std::vector<Footprint> footprints_;  // per mirror wall
+  std::vector<WallFoot> feet_;         // sorted by particle
+  std::vector<Image> images_;          // by particle, parents before their images
+  std::vector<std::uint32_t> slot_;    // place of an image in the arrays below
   std::vector<std::uint32_t> begin_;
   std::vector<CellList> cells_;
   std::vector<double> x_, y_, z_;  // sorted by cell, as the next

@@ -1,7 +1,6 @@
 // The fluid: water, charge and bubble as SPH particles between walls and symmetry planes, advanced in time.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,6 +12,7 @@
 #include "core/timers.hpp"
 #include "core/vector.hpp"
 #include "sph_fluid/settings.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
 
 namespace undex::sph {
 
@@ -34,26 +34,6 @@ struct Ledger {
   double gravity = 0;     ///< work that gravity has done on the fluid
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
-};
-
-/// A wall that a structure moves. The owner updates position, velocity and normal before each step and collects the impulse
-/// after it. Without a mesh it is lined with dummy particles; with one its points are the nodes of faces that the fluid slips
-/// along (wall_images.hpp), and have neither normals nor volumes.
-struct MovingWall {
-  std::vector<std::array<int, 4>> mesh;  ///< faces, as WetSurface has them
-  std::vector<Vec3> position;            ///< [m]
-  std::vector<Vec3> velocity;            ///< [m/s]
-  std::vector<Vec3> normal;              ///< unit, pointing away from the fluid; behind an edge, the edge's direction
-  std::vector<double> volume;            ///< [m^3]
-  std::vector<Vec3> impulse;             ///< [N s] received from the fluid since the owner last set it to zero
-  std::vector<int> faces;                ///< how many faces of the wall a particle lies behind; empty: one, for all of them
-  bool free_slip = true;
-
-  /// PackedWall::slip of particle k: 1 behind a free-slip face, -1 behind an edge of two, else 0.
-  double slip(std::size_t k) const {
-    const int count = faces.empty() ? 1 : faces[k];
-    return !free_slip || count > 2 ? 0.0 : count == 2 ? -1.0 : 1.0;
-  }
 };
 
 /// Counts of floors and clamps that acted since the start.
@@ -82,16 +62,19 @@ class Fluid {
   long substeps() const;                         ///< of fast bodies, where bodies have steps of their own
   std::vector<std::string> fast_bodies() const;  ///< those that take substeps at present
 
-  /// Adds a wall that somebody else moves; keep the index. Its particles count from the next step on.
-  int add_moving_wall(MovingWall wall);
-  MovingWall& moving_wall(int index);
-  /// Forces [N] on its particles at the last evaluation.
-  const std::vector<Vec3>& wall_force(int index) const;
+  /// Adds a wall that somebody else moves; keep its index. Its points count from the next step on.
+  MirrorIndex add_wall(MirrorWall wall);
+  LinedIndex add_wall(LinedWall wall);
+  MirrorWall& wall(MirrorIndex index);
+  LinedWall& wall(LinedIndex index);
+  /// Forces [N] on its points at the last evaluation.
+  const std::vector<Vec3>& wall_force(MirrorIndex index) const;
+  const std::vector<Vec3>& wall_force(LinedIndex index) const;
 
   /// Valid from construction on: rates are evaluated at once.
   StepLimit step_limit();
   /// Advances by dt [s]. Throws NumericalStop when the state that results, or its rates, are not finite or beyond all physics.
-  /// What is left then is the last sound state, before the step or in its middle (see time()), for output.
+  /// What is left then is the last healthy state, before the step or in its middle (see time()), for output.
   void step(double dt);
 
   Ledger ledger() const;

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Fails on an include that the architecture forbids, and on paths of somebody's machine.
 
-The graph: app -> study -> judge -> run -> coupling -> {sph_fluid, fem_structure} -> materials -> core; exact -> materials;
-output -> core; scene sees the settings of the modules that it fills, never a solver. deal.II stays inside fem_structure, out of its public headers.
+The graph is MAY_INCLUDE: app -> study -> judge -> run -> coupling -> {sph_solid, fem_structure, sph_fluid} -> materials -> core; within
+sph_fluid water -> walls -> settings -> schemes -> pairs. scene sees the settings of the modules that it fills, never a solver. deal.II stays
+inside fem_structure, out of its public headers.
 
     check_includes.py ROOT         checks the project at ROOT; exit code 1 and one line per finding
     check_includes.py --self-test  shows the check one example of each mistake
@@ -22,16 +23,34 @@ MAY_INCLUDE = {
     "exact": ["core", "materials"],
     "sph_fluid": ["core", "materials"],
     "fem_structure": ["core", "materials"],
-    "sph_solid": ["core", "materials", "sph_fluid"],
-    "coupling": ["core", "materials", "sph_fluid", "sph_solid", "fem_structure"],
+    "sph_solid": ["core", "materials", "sph_fluid/pairs", "sph_fluid/lattice.hpp", "sph_fluid/lattice_grid.hpp", "sph_fluid/settings.hpp",
+                  "sph_fluid/walls/moving_walls.hpp"],
+    "coupling": ["core", "materials", "sph_fluid/water/fluid.hpp", "sph_fluid/walls/moving_walls.hpp", "sph_fluid/walls/slip_faces.hpp",
+                 "sph_fluid/lattice.hpp", "sph_fluid/settings.hpp", "sph_solid/solids.hpp", "sph_solid/settings.hpp",
+                 "fem_structure/structure.hpp", "fem_structure/settings.hpp"],
     "scene": ["core", "materials", "sph_fluid/settings.hpp", "sph_solid/settings.hpp", "fem_structure/settings.hpp",
               "coupling/settings.hpp"],
     "output": ["core"],
-    "run": ["core", "materials", "exact", "sph_fluid", "sph_solid", "fem_structure", "coupling", "scene", "output"],
+    "run": ["core", "materials", "exact", "sph_fluid/water/fluid.hpp", "sph_fluid/walls/lattice_warnings.hpp", "sph_fluid/lattice.hpp",
+            "sph_fluid/settings.hpp", "sph_solid/solids.hpp", "sph_solid/settings.hpp", "fem_structure/structure.hpp",
+            "fem_structure/settings.hpp", "coupling", "scene", "output"],
     "judge": ["core", "materials", "exact", "sph_fluid/settings.hpp", "fem_structure/settings.hpp", "scene", "output", "run"],
     "study": ["core", "scene", "output", "judge"],
-    "app": MODULES,
+    "app": ["core", "materials", "scene", "output", "run", "judge", "study", "sph_fluid/pairs/cpu_level.hpp"],
 }
+# Rooms within a module: what the files of each may include of the project, themselves aside.
+ROOMS = {
+    "sph_fluid/pairs": [],
+    "sph_fluid/schemes": ["sph_fluid/pairs"],
+    "sph_fluid/walls": ["core", "sph_fluid/pairs", "sph_fluid/settings.hpp", "sph_fluid/lattice.hpp", "sph_fluid/lattice_grid.hpp"],
+    "sph_fluid/water": ["core", "materials", "sph_fluid"],
+}
+# Files at the top of a module that has rooms.
+TOPS = {"sph_fluid": ["core", "materials", "sph_fluid/pairs", "sph_fluid/schemes/table.hpp"]}
+# What is compiled once per instruction set, and all that it includes, may know of libraries only what instantiates no template:
+# the linker could keep the copy of the highest instruction set for everybody.
+PER_LEVEL = ["sph_fluid/pairs/cluster_work.hpp", "sph_fluid/schemes/*.hpp", "sph_solid/solid_schemes.hpp", "sph_solid/solid_loop.cpp"]
+PER_LEVEL_LIBRARIES = {"cmath", "cstddef", "cstdint", "immintrin.h", "numbers", "omp.h", "sched.h", "utility"}
 # Headers of fem_structure that other modules see; what they include must be free of deal.II too.
 PUBLIC_OF_FEM = ["structure.hpp", "settings.hpp"]
 
@@ -64,9 +83,43 @@ def includes(path):
     return [(quote == '"', target) for quote, target in INCLUDE.findall(text)]
 
 
+def listed(target, these):
+    """Is a header, its room or its module among these?"""
+    return any(str(each) in these for each in [pathlib.PurePosixPath(target), *pathlib.PurePosixPath(target).parents])
+
+
 def allowed(module, target):
-    head = target.split("/")[0]
-    return head == module or head in MAY_INCLUDE[module] or target in MAY_INCLUDE[module]
+    return target.split("/")[0] == module or listed(target, MAY_INCLUDE[module])
+
+
+def room_of(relative):
+    return str(pathlib.PurePosixPath(*relative.parts[:2]))
+
+
+def check_room(root, relative, findings):
+    module = relative.parts[0]
+    if room_of(relative) in ROOMS:
+        room, may = room_of(relative), ROOMS[room_of(relative)]
+    elif module in TOPS:
+        room, may = module, TOPS[module]
+    else:
+        return
+    for quoted, target in includes(root / relative):
+        own = str(pathlib.PurePosixPath(target).parent) == room
+        if quoted and target.split("/")[0] in MODULES and not own and not listed(target, may):
+            findings.append(f"{relative}: {room} must not include {target}")
+
+
+def check_per_level(root, findings):
+    waiting = sorted({str(path.relative_to(root)) for pattern in PER_LEVEL for path in root.glob(pattern)})
+    seen = set(waiting)
+    for name in waiting:  # grows while it is walked
+        for quoted, target in includes(root / name):
+            if not quoted and target not in PER_LEVEL_LIBRARIES:
+                findings.append(f"{name}: <{target}> may instantiate templates in what is compiled per instruction set")
+            elif quoted and target not in seen and (root / target).is_file():
+                seen.add(target)
+                waiting.append(target)
 
 
 def check_module(root, relative, findings):
@@ -114,8 +167,10 @@ def check(root):
         if relative.parts[0] in MODULES and relative.suffix in SOURCES:
             counted += 1
             check_module(root, relative, findings)
+            check_room(root, relative, findings)
         check_paths(root, relative, findings)
     check_deal_ii_is_private(root, findings)
+    check_per_level(root, findings)
     if counted == 0:
         findings.append(f"{root}: no sources found, nothing was checked")
     return findings
@@ -140,20 +195,34 @@ def self_test():
         "study/a.cpp": ('#include "run/run.hpp"', "study must not include"),
         "study/b.cpp": ('#include "app/version.hpp"', "study must not include"),
         "scene/b.cpp": ('#include "judge/judge.hpp"', "scene must not include"),
+        "app/b.cpp": ('#include "sph_fluid/water/fluid.hpp"', "app must not include"),
+        "coupling/b.cpp": ('#include "sph_fluid/water/water.hpp"', "coupling must not include"),
+        "sph_solid/a.cpp": ('#include "sph_fluid/water/fluid.hpp"', "sph_solid must not include"),
+        "sph_fluid/pairs/a.hpp": ('#include "core/vector.hpp"', "sph_fluid/pairs must not include"),
+        "sph_fluid/schemes/a.hpp": ('#include "sph_fluid/settings.hpp"', "sph_fluid/schemes must not include"),
+        "sph_fluid/walls/a.cpp": ('#include "sph_fluid/water/fluid.hpp"', "sph_fluid/walls must not include"),
+        "sph_fluid/walls/b.cpp": ('#include "sph_fluid/schemes/loops.hpp"', "sph_fluid/walls must not include"),
+        "sph_fluid/b.cpp": ('#include "sph_fluid/walls/particles.hpp"', "sph_fluid must not include"),
+        "sph_fluid/schemes/b.hpp": ("#include <vector>", "compiled per instruction set"),
+        "sph_fluid/pairs/cluster_work.hpp": ('#include "sph_fluid/pairs/list.hpp"', "compiled per instruction set"),
     }
     failed = []
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         sound = {
             "coupling/good.cpp": '#include "sph_fluid/water/fluid.hpp"\n#include "fem_structure/structure.hpp"\n#include <vector>\n',
-            "sph_fluid/water/fluid.hpp": '#include "core/vector.hpp"\n',
+            "sph_fluid/water/fluid.hpp": '#include "core/vector.hpp"\n#include "sph_fluid/walls/particles.hpp"\n',
+            "sph_fluid/water/water.hpp": "",
+            "sph_fluid/walls/particles.hpp": '#include "sph_fluid/pairs/list.hpp"\n',
+            "sph_fluid/schemes/loops.hpp": "#include <cstddef>\n",
+            "sph_fluid/pairs/list.hpp": "#include <vector>\n",
             "scene/good.cpp": '#include "sph_fluid/settings.hpp"\n',
             "sph_fluid/settings.hpp": "",
             "fem_structure/structure.hpp": '#include "core/vector.hpp"\n',
             "fem_structure/private.hpp": "#include <deal.II/grid/tria.h>\n",
             "core/vector.hpp": "#include <Eigen/Core>\n",
             "exact/good.cpp": '#include "core/vector.hpp"\n',
-            "app/good.cpp": '#include "exact/riemann.hpp"\n',
+            "app/good.cpp": '#include "core/vector.hpp"\n',
             "exact/riemann.hpp": "",
         }
         for name, text in sound.items():

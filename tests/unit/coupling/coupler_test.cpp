@@ -152,10 +152,10 @@ TEST(Coupler, HeavyPlateIsARigidWall) {
   EXPECT_LT(heavy.structure.wet_velocities()[0].norm(), 0.1);
 
   sph::Fluid rigid(Column::water(choice));
-  const int wall = rigid.add_moving_wall(heavy.coupler.wall().mesh());
+  const auto wall = rigid.add_wall(heavy.coupler.wall().mesh());
   while (rigid.time() < 25e-6) rigid.step(std::min(rigid.step_limit().step, 25e-6 - rigid.time() + 1e-18));
   Vec3 impulse = Vec3::Zero();
-  for (const Vec3& one : rigid.moving_wall(wall).impulse) impulse += one;
+  for (const Vec3& one : rigid.wall(wall).impulse) impulse += one;
   const double given = heavy.coupler.ledger().impulse_given[2], hammer = 1000 * 1538.4 * choice.water_speed;
   std::printf("  heavy plate: impulse %.6g N s, rigid wall: %.6g N s; hammer over area and time: %.6g N s\n", given, impulse[2],
               hammer * 0.03 * 0.02 * 25e-6);

@@ -1,6 +1,7 @@
 // Water and solids as one system of particles: momentum to round-off, work accounted for, and a solid that does not move is a
 // wall.
 #include "sph_fluid/lattice.hpp"
+#include "sph_fluid/walls/line_walls.hpp"
 #include "coupling/particle_system.hpp"
 
 #include <Eigen/Geometry>
@@ -82,7 +83,7 @@ TEST_P(Impact, HeavyBlockIsARigidWall) {
   const auto stagnation = [&](bool rigid) {
     const Drop block = drop(GetParam(), 2.7e7, 30);
     const Settings& s = block.water;
-    std::vector<MovingWall> lining;
+    std::vector<LinedWall> lining;
     if (rigid) {
       Wall floor = box_wall(Vec3(-0.2, -0.2, 0), Vec3(0.2, 0.2, 0.2));
       for (auto& [name, face] : floor.faces) face = name == "z_low" ? FaceCondition::free_slip : FaceCondition::open;
@@ -93,7 +94,7 @@ TEST_P(Impact, HeavyBlockIsARigidWall) {
       lining = line_walls(lined);
     }
     Fluid fluid(s);
-    for (const MovingWall& wall : lining) fluid.add_moving_wall(wall);
+    for (const LinedWall& wall : lining) fluid.add_wall(wall);
     if (rigid) {
       while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
     } else {

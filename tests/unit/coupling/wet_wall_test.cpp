@@ -25,7 +25,7 @@ TEST(WetWall, LayersReachAsDeepAsAsked) {
   EXPECT_EQ(WetWall(surface, 0.1, 0.1, no_planes).layer_count(), 3u) << "at least three";
   const WetWall deep(surface, 0.1, 0.42, no_planes);
   EXPECT_EQ(deep.layer_count(), 5u);
-  const sph::MovingWall wall = deep.particles(true);
+  const sph::LinedWall wall = deep.particles(true);
   double shallow = 1, deepest = 0;
   for (const Vec3& x : wall.position) {
     shallow = std::min(shallow, x[2]);
@@ -59,7 +59,7 @@ TEST(WetWall, VolumeBehindACylinder) {
 
 TEST(WetWall, NormalsPointAwayFromTheFluid) {
   const WetWall map(cylinder(0.0445, 0, 0.1, 64, 10, 2 * std::numbers::pi), 0.002, 0.006, no_planes);
-  const sph::MovingWall wall = map.particles(true);
+  const sph::LinedWall wall = map.particles(true);
   for (std::size_t k = 0; k < wall.position.size(); ++k) {
     const Vec3 radial = Vec3(wall.position[k][0], wall.position[k][1], 0).normalized();
     EXPECT_GT(wall.normal[k].dot(radial), 1 - 1e-3);
@@ -79,7 +79,7 @@ TEST(WetWall, RigidMotionArrivesAsItself) {
   for (const bool round : {false, true}) {
     const WetSurface surface = round ? cylinder(0.5, -0.3, 0.4, 24, 5, 1.1) : plate(1.0, 0.6, 4, 3, 0.03);
     const WetWall map(surface, 0.05, 0.15, no_planes);
-    const sph::MovingWall start = map.particles(true);
+    const sph::LinedWall start = map.particles(true);
     const Mat3 turn = Eigen::AngleAxisd(0.83, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
     const Vec3 shift(0.3, -1.2, 0.7), v0(11, -7, 3), spin(2, 5, -4);
     std::vector<Vec3> position, velocity;
@@ -87,7 +87,7 @@ TEST(WetWall, RigidMotionArrivesAsItself) {
       position.push_back(turn * x + shift);
       velocity.push_back(v0 + spin.cross(position.back()));
     }
-    sph::MovingWall wall = start;
+    sph::LinedWall wall = start;
     map.move(position, velocity, wall);
     for (std::size_t k = 0; k < wall.position.size(); ++k) {
       EXPECT_LT((wall.position[k] - (turn * start.position[k] + shift)).norm(), 1e-13);
@@ -103,7 +103,7 @@ TEST(WetWall, TranslationIsExact) {
   const WetSurface surface = cylinder(0.5, -0.3, 0.4, 24, 5, 2 * std::numbers::pi);
   const WetWall map(surface, 0.05, 0.15, no_planes);
   const Vec3 v(3, -4, 5);
-  sph::MovingWall wall = map.particles(true);
+  sph::LinedWall wall = map.particles(true);
   map.move(surface.nodes, std::vector<Vec3>(surface.nodes.size(), v), wall);
   for (const Vec3& u : wall.velocity) EXPECT_LT((u - v).norm(), 1e-14);
 }
@@ -113,7 +113,7 @@ TEST(WetWall, SymmetryPlanesKeepNormalsInPlane) {
   const double pi = std::numbers::pi;
   const WetWall whole(cylinder(0.0445, -0.1, 0.1, 64, 20, 2 * pi), 0.002, 0.006, no_planes);
   const WetWall octant(cylinder(0.0445, 0, 0.1, 16, 10, 0.5 * pi), 0.002, 0.006, {true, true, true});
-  const sph::MovingWall part = octant.particles(true), all = whole.particles(true);
+  const sph::LinedWall part = octant.particles(true), all = whole.particles(true);
   ASSERT_EQ(8 * part.position.size(), all.position.size());
   EXPECT_NEAR(8 * total(part.volume), total(all.volume), 1e-12 * total(all.volume));
   for (std::size_t k = 0; k < part.position.size(); ++k) {
@@ -132,7 +132,7 @@ TEST(WetWall, SymmetryPlanesKeepNormalsInPlane) {
   // Without the planes the normals at the cut lean over.
   const WetWall cut(cylinder(0.0445, 0, 0.1, 16, 10, 0.5 * pi), 0.002, 0.006, no_planes);
   double leaning = 0;
-  const sph::MovingWall lean = cut.particles(true);
+  const sph::LinedWall lean = cut.particles(true);
   for (std::size_t k = 0; k < part.position.size(); ++k) leaning = std::max(leaning, (lean.normal[k] - part.normal[k]).norm());
   EXPECT_GT(leaning, 0.01);
 }
@@ -144,7 +144,7 @@ TEST(WetWall, TransferIsConservative) {
   for (const bool round : {false, true}) {
     const WetSurface surface = round ? cylinder(0.5, -0.3, 0.4, 24, 5, 2 * std::numbers::pi) : plate(1.0, 0.6, 4, 3, 0.03);
     const WetWall map(surface, 0.03, 0.1, no_planes);
-    sph::MovingWall wall = map.particles(true);
+    sph::LinedWall wall = map.particles(true);
     std::vector<Vec3> velocity;
     for (std::size_t n = 0; n < surface.nodes.size(); ++n) velocity.push_back(30 * scattered(int(n)));
     map.move(surface.nodes, velocity, wall);
@@ -156,14 +156,14 @@ TEST(WetWall, TransferIsConservative) {
     }
     const Vec3 sum = total(wall.impulse);
     std::vector<Vec3> nodal(surface.nodes.size(), Vec3::Constant(0.0));
-    map.hand_over(wall, nodal);
+    map.collect_impulse(wall, nodal);
     for (std::size_t n = 0; n < nodal.size(); ++n) received += nodal[n].dot(velocity[n]);
     EXPECT_LT((total(nodal) - sum).norm(), 1e-14 * 5 * double(wall.impulse.size()));
     EXPECT_NEAR(received, given, 1e-14 * given_size);
     for (const Vec3& left : wall.impulse) EXPECT_EQ(left, Vec3(Vec3::Zero())) << "handed over twice";
     // What the nodes held before stays.
     const std::vector<Vec3> before = nodal;
-    map.hand_over(wall, nodal);
+    map.collect_impulse(wall, nodal);
     EXPECT_EQ(nodal, before);
   }
 }
@@ -176,12 +176,12 @@ TEST(WetWall, UniformPressureGivesConsistentNodalForces) {
   const WetSurface surface = plate(a, b, nx, ny);
   for (const double spacing : {0.3, 0.1, 0.023}) {
     const WetWall map(surface, spacing, 3 * spacing, no_planes);
-    sph::MovingWall wall = map.particles(true);
+    sph::LinedWall wall = map.particles(true);
     // Each column of layers carries the pressure on its share of the surface.
     for (std::size_t k = 0; k < wall.impulse.size(); ++k)
       wall.impulse[k] = p * wall.volume[k] / (double(map.layer_count()) * spacing) * wall.normal[k];
     std::vector<Vec3> nodal(surface.nodes.size(), Vec3::Zero());
-    map.hand_over(wall, nodal);
+    map.collect_impulse(wall, nodal);
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i) {
         const double share = (i == 0 || i == nx ? 0.5 : 1.0) * (j == 0 || j == ny ? 0.5 : 1.0);
@@ -196,10 +196,10 @@ TEST(WetWall, UniformPressureInACylinder) {
   const int around = 32, along = 6;
   const WetSurface surface = cylinder(0.0445, -0.05, 0.05, around, along, 2 * std::numbers::pi);
   const WetWall map(surface, 0.003, 0.009, no_planes);
-  sph::MovingWall wall = map.particles(true);
+  sph::LinedWall wall = map.particles(true);
   for (std::size_t k = 0; k < wall.impulse.size(); ++k) wall.impulse[k] = 1e6 * wall.volume[k] * wall.normal[k];
   std::vector<Vec3> nodal(surface.nodes.size(), Vec3::Zero());
-  map.hand_over(wall, nodal);
+  map.collect_impulse(wall, nodal);
   EXPECT_LT(total(nodal).norm(), 1e-12 * nodal[around * 3].norm() * around);
   for (int j = 0; j <= along; ++j)
     for (int i = 0; i < around; ++i) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "materials/library.hpp"
+#include "scene/key_tables.hpp"
 #include "scene/numbers.hpp"
 #include "scene/schema.hpp"
 #include "scratch.hpp"
@@ -27,11 +28,11 @@ TEST(Documentation, NamesEveryKeyWithItsUnit) {
   for (const Section& section : schema())
     for (const Key& key : section.keys) {
       bool found = false;
-      for (auto at = text.find('`' + key.name + '`'); at != std::string::npos && !found;
-           at = text.find('`' + key.name + '`', at + 1)) {
+      for (auto at = text.find(std::string("`") + key.name + '`'); at != std::string::npos && !found;
+           at = text.find(std::string("`") + key.name + '`', at + 1)) {
         const auto begin = text.rfind('\n', at) + 1;
         const std::string line = text.substr(begin, text.find('\n', at) - begin);
-        found = key.unit.empty() || line.find("| " + key.unit + " |") != std::string::npos;
+        found = !*key.unit || line.find(std::string("| ") + key.unit + " |") != std::string::npos;
       }
       EXPECT_TRUE(found) << "[" << section.name << "] " << key.name << " [" << key.unit << "]";
     }
@@ -76,6 +77,26 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
   EXPECT_NE(part("[scheme]")
                 .find(numerics.scheme == sph::SchemeName::riemann ? "`name` | - | \"riemann\"" : "`name` | - | \"monaghan\""),
             std::string::npos);
+}
+
+TEST(Documentation, TablesAreThoseOfTheRecords) {
+  const std::string text = page();
+  EXPECT_EQ(with_key_tables(text, "the page"), text) << "write them anew: undex keys docs/scene-file.md";
+}
+
+TEST(Documentation, MarksOfATableMustBeSound) {
+  const auto refused = [](const std::string& text) {
+    try {
+      with_key_tables(text, "page.md");
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused("<!-- table: scheme -->\n<!-- end -->\n"), "");
+  EXPECT_NE(refused("<!-- table: schema -->\n<!-- end -->\n").find("page.md: there is no table 'schema'"), std::string::npos);
+  EXPECT_NE(refused("<!-- table: scheme -->\n").find("must be <!-- table: name --> on a line of its own"), std::string::npos);
+  EXPECT_EQ(with_key_tables("no marks", ""), "no marks");
 }
 
 TEST(Documentation, ExamplesAreGoodScenes) {

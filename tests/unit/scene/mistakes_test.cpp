@@ -63,6 +63,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nintegrator = \"ssp_rk3\"\nlocal_steps = true"),
        "8:15: scheme.local_steps = true needs scheme.integrator = \"leapfrog\": a Runge-Kutta step is one for all; leave one of "
        "them out\n"},
+      {"particle shifting, which is no more", with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nshifting = 0.5"),
+       "7:1: unknown key 'shifting' in scheme; known: name, kernel, "},
       {"too small for single precision", with(two_gases, "spacing = 0.01", "spacing = 1e-5\n[scheme]\nprecision = \"mixed\""),
        "7:13: scheme.precision = \"mixed\" needs a resolution.spacing of at least 2e-05 m: finer lengths leave the range of "
        "single precision; take \"full\"\n"},

@@ -451,11 +451,10 @@ TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
   for (const std::string& text : rich) all += '\n' + to_toml(read_text(text));
   for (const Section& section : schema())
     for (const Key& key : section.keys) {
-      const std::string full = section.name + '.' + key.name;
-      if (std::find(spellings.begin(), spellings.end(), full) != spellings.end() || key.name == "base") continue;
-      const bool there = all.find('\n' + key.name + " = ") != std::string::npos ||
-                         all.find('[' + key.name + ']') != std::string::npos ||
-                         all.find('.' + key.name + ']') != std::string::npos;
+      const std::string name = key.name, full = section.name + '.' + name;
+      if (std::find(spellings.begin(), spellings.end(), full) != spellings.end() || name == "base") continue;
+      const bool there = all.find('\n' + name + " = ") != std::string::npos || all.find('[' + name + ']') != std::string::npos ||
+                         all.find('.' + name + ']') != std::string::npos;
       EXPECT_TRUE(there) << full;
     }
 }

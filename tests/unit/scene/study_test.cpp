@@ -258,7 +258,7 @@ TEST(Study, PageNamesEveryKeyWithItsUnit) {
   page << file.rdbuf();
   for (const Section& section : study_schema())
     for (const Key& key : section.keys)
-      EXPECT_NE(page.str().find("| `" + key.name + "` | " + (key.unit.empty() ? "-" : key.unit) + " |"), std::string::npos)
+      EXPECT_NE(page.str().find(std::string("| `") + key.name + "` | " + (*key.unit ? key.unit : "-") + " |"), std::string::npos)
           << key.name;
 }
 

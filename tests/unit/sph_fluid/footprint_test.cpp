@@ -37,7 +37,7 @@ TEST(Footprint, KeepsForceAndPower) {
   const Footprint footprint(p.faces, p.x, 0.035, {false, false, false});
   const std::vector<Vec3> force = some_field(p.x.size(), 0.3), velocity = some_field(p.x.size(), 0.7);
   std::vector<Vec3> handed(p.x.size(), Vec3::Zero());
-  footprint.hand_on(force, handed);
+  footprint.spread(force, handed);
   const std::vector<Vec3> seen = footprint.seen(velocity);
   Vec3 before = Vec3::Zero(), after = Vec3::Zero();
   double given = 0, received = 0;

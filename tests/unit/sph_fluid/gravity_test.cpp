@@ -155,12 +155,12 @@ TEST_P(Column, KeepsItsPressureOnASymmetryPlane) {
 
 TEST_P(Column, WeighsWhatItWeighs) {
   Fluid fluid(column(0.05, GetParam()));
-  const int bottom = fluid.add_moving_wall(layers_beyond(0.0, -1, 0.0));
+  const auto bottom = fluid.add_wall(layers_beyond(0.0, -1, 0.0));
   const Ledger start = fluid.ledger();
   const double weight = start.mass * gravity;
   double received = 0;
   while (fluid.time() < 8e-3) fluid.step(fluid.step_limit().step);
-  for (const Vec3& impulse : fluid.moving_wall(bottom).impulse) received += impulse[0];
+  for (const Vec3& impulse : fluid.wall(bottom).impulse) received += impulse[0];
   const double momentum = fluid.ledger().momentum[0];
   // What it does not weigh it gains in momentum, to round-off; and that is little.
   EXPECT_NEAR(-received, weight * fluid.time() + momentum, 1e-11 * weight * fluid.time());

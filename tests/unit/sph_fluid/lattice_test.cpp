@@ -1,6 +1,9 @@
 // The start: how bodies are filled with particles and walls lined with dummies.
 #include "sph_fluid/lattice.hpp"
 
+#include "sph_fluid/walls/lattice_warnings.hpp"
+#include "sph_fluid/walls/line_walls.hpp"
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -128,7 +131,8 @@ TEST(Lattice, SymmetricBodyGetsACellFaceAtZero) {
 }
 
 Settings rings(double spacing) {
-  Settings settings = scene(3, spacing, Shape{Cylinder{2, Vec3::Zero(), 0.4445, -0.2, 0.2}, {}});
+  Settings settings =
+      scene(3, spacing, Shape{Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.4445, .low = -0.2, .high = 0.2}, {}});
   settings.lattice.type = LatticeType::rings;
   settings.lattice.fit = "water";
   return settings;
@@ -185,7 +189,7 @@ TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
   settings = rings(0.05);
   Wall wall;
   wall.name = "side";
-  wall.container = Cylinder{2, Vec3::Zero(), 0.4445, -0.2, 0.2};
+  wall.container = Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.4445, .low = -0.2, .high = 0.2};
   wall.faces = {{"low", FaceCondition::open}, {"high", FaceCondition::open}};
   settings.walls = {wall};
   EXPECT_TRUE(lattice_warnings(settings).empty());
@@ -322,7 +326,7 @@ TEST(WallLining, IsAsDeepAsTheKernelReaches) {
     settings.numerics.kernel = kernel;
     settings.numerics.eta = 1.2;
     settings.walls = {box_wall(Vec3(0, 0, 0), Vec3(1, 1, 1), FaceCondition::no_slip)};
-    const std::vector<MovingWall> walls = line_walls(settings);
+    const std::vector<LinedWall> walls = line_walls(settings);
     ASSERT_EQ(walls.size(), 1u);
     EXPECT_FALSE(walls[0].free_slip);
     double deepest = 0;
@@ -346,7 +350,7 @@ TEST(WallLining, OpenFacesHaveNone) {
   settings.walls[0].faces["y_low"] = FaceCondition::no_slip;
   settings.numerics.scheme = SchemeName::paper;  // the others mirror the fluid in slip walls
   bool slip = false, stick = false;
-  for (const MovingWall& wall : line_walls(settings))
+  for (const LinedWall& wall : line_walls(settings))
     for (const Vec3& x : wall.position) {
       EXPECT_LT(x[0], 1.0) << "beyond the open face";
       EXPECT_EQ(wall.free_slip, x[1] > 0) << "only the face y_low holds the flow";
@@ -359,13 +363,13 @@ TEST(WallLining, CylinderNormalsPointAway) {
   Settings settings = rings(0.05);
   Wall wall;
   wall.name = "side";
-  wall.container = Cylinder{2, Vec3::Zero(), 0.4445, -0.2, 0.2};
+  wall.container = Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.4445, .low = -0.2, .high = 0.2};
   wall.faces = {{"side", FaceCondition::free_slip}, {"low", FaceCondition::open}, {"high", FaceCondition::open}};
   settings.walls = {wall};
   EXPECT_TRUE(line_walls(settings).empty()) << "the fluid is mirrored in it";
   settings.numerics.scheme = SchemeName::paper;
   double volume = 0;
-  for (const MovingWall& lining : line_walls(settings))
+  for (const LinedWall& lining : line_walls(settings))
     for (std::size_t k = 0; k < lining.position.size(); ++k) {
       const Vec3& x = lining.position[k];
       const double r = std::hypot(x[0], x[1]);

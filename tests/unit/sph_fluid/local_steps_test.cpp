@@ -114,24 +114,24 @@ TEST_P(LocalSteps, MovingWallReceivesAll) {
   s.bodies[2].spacing = 0.01;
   for (Body& one : s.bodies) one.velocity = Vec3(5, -40, 0);
   Fluid fluid(s);
-  MovingWall wall;
+  LinedWall wall;
   for (int row = 0; row < 8; ++row)
     for (int k = -10; k < 70; ++k) wall.position.push_back(Vec3(0.01 * (k + 0.5), -0.01 * (row + 0.5), 0));
   wall.velocity.assign(wall.position.size(), Vec3(0, 10, 0));
   wall.normal.assign(wall.position.size(), Vec3(0, -1, 0));
   wall.volume.assign(wall.position.size(), 1e-4);
-  const int index = fluid.add_moving_wall(wall);
+  const auto index = fluid.add_wall(wall);
   const Ledger start = fluid.ledger();
   while (fluid.time() < 2e-4) {
     const double dt = fluid.step_limit().step;
     EXPECT_EQ(fluid.fast_bodies(), Names{"fine"});
-    for (Vec3& x : fluid.moving_wall(index).position) x[1] += 10 * dt;
-    const std::vector<Vec3> shown = fluid.moving_wall(index).position;
+    for (Vec3& x : fluid.wall(index).position) x[1] += 10 * dt;
+    const std::vector<Vec3> shown = fluid.wall(index).position;
     fluid.step(dt);
-    EXPECT_EQ(fluid.moving_wall(index).position, shown);
+    EXPECT_EQ(fluid.wall(index).position, shown);
   }
   Vec3 received = Vec3::Zero(), force = Vec3::Zero();
-  for (const Vec3& impulse : fluid.moving_wall(index).impulse) received += impulse;
+  for (const Vec3& impulse : fluid.wall(index).impulse) received += impulse;
   for (const Vec3& one : fluid.wall_force(index)) force += one;
   const Ledger end = fluid.ledger();
   EXPECT_GT(fluid.substeps(), 2 * fluid.steps());
@@ -163,7 +163,7 @@ TEST_P(LocalSteps, RefusedStepLeavesItsStart) {
     std::set<bool> outcomes;
     for (double dt = 1e-11; dt < 1e-7; dt *= 1.5) {
       Fluid fluid(s);
-      const int wall = fluid.add_moving_wall(layers_beyond(-1, -1, speed));
+      const auto wall = fluid.add_wall(layers_beyond(-1, -1, speed));
       fluid.step(1e-13);
       EXPECT_EQ(fluid.fast_bodies(), Names{"slab"});
       outcomes.insert(refuses(fluid, wall, dt));

@@ -105,7 +105,13 @@ inline Result run(const Sample& sample) {
     for (const std::uint32_t k : cells[g].order()) result.particles.push_back(all[k]);
     double h_max = 0;
     for (const Particle& q : set.particles) h_max = std::max(h_max, q.h);
-    groups.push_back({begin, end, cells[g].view(), h_max, set.variable_h, set.variable_h, std::uint32_t(g)});
+    groups.push_back({.begin = begin,
+                      .end = end,
+                      .grid = cells[g].view(),
+                      .h_max = h_max,
+                      .variable_h = set.variable_h,
+                      .gas = set.variable_h,
+                      .material = std::uint32_t(g)});
     h_largest = std::max(h_largest, h_max);
     begin = end;
   }
@@ -173,7 +179,8 @@ inline Result run(const Sample& sample) {
   std::vector<long long> interactions(blocks.block_count());
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
-  const PairOutput out{sums.data(), m > 0 ? forces.data() : nullptr, nullptr, interactions.data()};
+  const PairOutput out{
+      .fluid = sums.data(), .wall = m > 0 ? forces.data() : nullptr, .images = nullptr, .interactions = interactions.data()};
   if (loops.gradients) loops.gradients(in, out);
   loops.rates(in, out);
   omp_set_num_threads(before);

@@ -7,8 +7,8 @@
 namespace undex::sph::testing {
 
 /// A moving wall of four particles in one dimension, 0.05 m apart, behind the face at `face` [m]; `side` is its normal, +1 or -1.
-inline MovingWall layers_beyond(double face, double side, double velocity) {
-  MovingWall wall;
+inline LinedWall layers_beyond(double face, double side, double velocity) {
+  LinedWall wall;
   for (int k = 0; k < 4; ++k) wall.position.push_back(Vec3(face + side * 0.05 * (k + 0.5), 0, 0));
   wall.velocity.assign(4, Vec3(velocity, 0, 0));
   wall.normal.assign(4, Vec3(side, 0, 0));
@@ -17,8 +17,8 @@ inline MovingWall layers_beyond(double face, double side, double velocity) {
 }
 
 /// Is a step of dt [s] refused? All fields are finite afterwards, and after a refusal everything is as it was, to the last digit.
-inline bool refuses(Fluid& fluid, int wall, double dt) {
-  const std::vector<Vec3> x = by_id(fluid, "position"), v = by_id(fluid, "velocity"), impulse = fluid.moving_wall(wall).impulse;
+inline bool refuses(Fluid& fluid, LinedIndex wall, double dt) {
+  const std::vector<Vec3> x = by_id(fluid, "position"), v = by_id(fluid, "velocity"), impulse = fluid.wall(wall).impulse;
   const Ledger before = fluid.ledger();
   const double time = fluid.time();
   const long steps = fluid.steps();
@@ -34,7 +34,7 @@ inline bool refuses(Fluid& fluid, int wall, double dt) {
   if (!refused) return false;
   EXPECT_EQ(by_id(fluid, "position"), x) << dt;
   EXPECT_EQ(by_id(fluid, "velocity"), v) << dt;
-  EXPECT_EQ(fluid.moving_wall(wall).impulse, impulse);
+  EXPECT_EQ(fluid.wall(wall).impulse, impulse);
   EXPECT_EQ(fluid.time(), time);
   EXPECT_EQ(fluid.steps(), steps);
   EXPECT_EQ(fluid.ledger().dissipated, before.dissipated);

@@ -121,21 +121,21 @@ TEST(SspRk3, MovingWallReceivesWhatTheFluidLoses) {
     s.bodies = {body("water", box(Vec3(0, 0, -1), Vec3(0.2, 0.3, 1)), "water-tait")};
     s.bodies[0].velocity = Vec3(5, -40, 0);
     Fluid fluid(s);
-    MovingWall wall;
+    LinedWall wall;
     for (int row = 0; row < 4; ++row)
       for (int k = -5; k < 15; ++k) wall.position.push_back(Vec3(0.02 * (k + 0.5), -0.02 * (row + 0.5), 0));
     wall.velocity.assign(wall.position.size(), Vec3(0, 10, 0));
     wall.normal.assign(wall.position.size(), Vec3(0, -1, 0));
     wall.volume.assign(wall.position.size(), 4e-4);
-    const int index = fluid.add_moving_wall(wall);
+    const auto index = fluid.add_wall(wall);
     const Ledger start = fluid.ledger();
     while (fluid.time() < 2e-4) {
       const double dt = fluid.step_limit().step;
-      for (Vec3& x : fluid.moving_wall(index).position) x[1] += 10 * dt;
+      for (Vec3& x : fluid.wall(index).position) x[1] += 10 * dt;
       fluid.step(dt);
     }
     Vec3 received = Vec3::Zero();
-    for (const Vec3& impulse : fluid.moving_wall(index).impulse) received += impulse;
+    for (const Vec3& impulse : fluid.wall(index).impulse) received += impulse;
     const Ledger end = fluid.ledger();
     EXPECT_LT(received[1], 0.2 * start.momentum[1]);  // it has been struck
     EXPECT_LT((end.momentum + received - start.momentum).norm(), 1e-12 * start.momentum.norm());
@@ -250,7 +250,7 @@ TEST(SspRk3, RefusedStepLeavesItsStart) {
       std::set<bool> outcomes;
       for (double dt = 1e-10; dt < 1e-3; dt *= 1.5) {
         Fluid fluid(s);
-        const int wall = fluid.add_moving_wall(layers_beyond(1, 1, -speed));
+        const auto wall = fluid.add_wall(layers_beyond(1, 1, -speed));
         fluid.step(1e-13);
         outcomes.insert(refuses(fluid, wall, dt));
       }

@@ -82,8 +82,8 @@ TEST(WallImages, LetAPlaneWavePass) {
 }
 
 /// A quarter of a tube's inside as a mesh, bulged, moving, with waves in it.
-MovingWall quarter_tube(double radius, double length, int around, int along) {
-  MovingWall wall;
+MirrorWall quarter_tube(double radius, double length, int around, int along) {
+  MirrorWall wall;
   for (int j = 0; j <= along; ++j)
     for (int i = 0; i <= around; ++i) {
       const double angle = 0.5 * std::numbers::pi * i / around;
@@ -92,7 +92,7 @@ MovingWall quarter_tube(double radius, double length, int around, int along) {
     }
   const auto node = [&](int i, int j) { return j * (around + 1) + i; };
   for (int j = 0; j < along; ++j)
-    for (int i = 0; i < around; ++i) wall.mesh.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    for (int i = 0; i < around; ++i) wall.faces.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
   wall.velocity.assign(wall.position.size(), Vec3::Zero());
   return wall;
 }
@@ -106,7 +106,8 @@ Settings tube_water(double dx, SchemeName scheme) {
   settings.lattice.type = LatticeType::rings;
   settings.lattice.fit = "water";
   settings.symmetry.axis = {true, true, false};
-  settings.bodies = {body("water", Shape{Cylinder{2, Vec3::Zero(), 0.5, 0.0, 0.4}, {}}, "water-tait")};
+  settings.bodies = {body("water", Shape{Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.5, .low = 0.0, .high = 0.4}, {}},
+                          "water-tait")};
   settings.bodies[0].pressure = 2e8;
   return settings;
 }
@@ -124,24 +125,24 @@ TEST(WallImages, MovingWallReceivesWhatTheFluidLoses) {
     double error[2];
     for (const int finer : {0, 1}) {
       Fluid fluid(tube_water(0.05, scheme));
-      MovingWall tube = quarter_tube(0.5, 0.4, 8, 6);
+      MirrorWall tube = quarter_tube(0.5, 0.4, 8, 6);
       const auto radial = [](const Vec3& x) { return Vec3(x[0], x[1], 0).normalized(); };
       for (std::size_t n = 0; n < tube.position.size(); ++n) {
         const Vec3 x = tube.position[n];
         tube.position[n] += (0.02 * std::cos(9 * x[2])) * radial(x);  // waves: normals with a part along z
         tube.velocity[n] = (20 + 30 * std::sin(7 * x[2])) * radial(x) + Vec3(0, 0, 5);
       }
-      const int index = fluid.add_moving_wall(tube);
+      const auto index = fluid.add_wall(tube);
       const double dt = (finer ? 0.15 : 0.3) * fluid.step_limit().step;
       const Ledger start = fluid.ledger();
       const int steps = finer ? 20 : 10;
       for (int k = 0; k < steps; ++k) {
-        MovingWall& wall = fluid.moving_wall(index);
+        MirrorWall& wall = fluid.wall(index);
         for (std::size_t n = 0; n < wall.position.size(); ++n) wall.position[n] += dt * wall.velocity[n];
         fluid.step(dt);
       }
       const Ledger end = fluid.ledger();
-      const Vec3 received = sum(fluid.moving_wall(index).impulse), gained = end.momentum - start.momentum;
+      const Vec3 received = sum(fluid.wall(index).impulse), gained = end.momentum - start.momentum;
       EXPECT_GT(std::abs(gained[2]), 1e-3 * received.norm());
       EXPECT_NEAR(received[2], -gained[2], 1e-11 * received.norm()) << int(scheme);
       EXPECT_NE(end.wall_work, 0.0);
@@ -159,7 +160,7 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
   double previous = 0;
   for (const int around : {8, 16, 32}) {
     const Settings settings = tube_water(0.05, SchemeName::riemann);
-    const MovingWall tube = quarter_tube(0.5, 0.4, around, 6);
+    const MirrorWall tube = quarter_tube(0.5, 0.4, around, 6);
     const double r = 0.43;
     const int count = 60;
     Particles particles;
@@ -174,11 +175,12 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
     CellList cells;
     cells.build(particles.x.data(), particles.y.data(), particles.z.data(), 0, count, 0.1);
     particles.permute(0, cells.order());
-    for (FluidRow& row : particles.predicted) row = FluidRow{3, 4, 5, 7, 2, 1000, 1500, 0.06};
-    const WallImages::Range range{0, std::uint32_t(count), &cells, 0.1, 0.12};
+    for (FluidRow& row : particles.predicted)
+      row = FluidRow{.vx = 3, .vy = 4, .vz = 5, .p = 7, .volume = 2, .rho = 1000, .c = 1500, .h = 0.06};
+    const ParticleRange range{.first = 0, .last = std::uint32_t(count), .cells = &cells, .width = 0.1, .depth = 0.12};
     WallImages images;
     images.build(settings, {}, {tube}, particles, {&range, 1});
-    images.mirror_rows(particles);
+    images.reflect_rows(particles);
     ASSERT_EQ(images.size(), std::size_t(count)) << "one each, on the edges of faces too";
     PairInput in{};
     images.describe(in);
@@ -209,12 +211,12 @@ TEST(WallImages, RoundWallFeelsThePressure) {
     settings.lattice.jitter = 0;
     Wall ends;
     ends.name = "ends";
-    ends.container = Cylinder{2, Vec3::Zero(), 0.5, 0.0, 0.4};
+    ends.container = Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.5, .low = 0.0, .high = 0.4};
     ends.faces = {{"side", FaceCondition::open}, {"low", FaceCondition::free_slip}, {"high", FaceCondition::free_slip}};
     settings.walls = {ends};
     Fluid fluid(settings);
-    const MovingWall tube = quarter_tube(0.5, 0.4, 64, 16);
-    const int index = fluid.add_moving_wall(tube);
+    const MirrorWall tube = quarter_tube(0.5, 0.4, 64, 16);
+    const auto index = fluid.add_wall(tube);
     fluid.step_limit();
     fluid.step(1e-12);
     double pressed = 0;
@@ -233,17 +235,17 @@ TEST(WallImages, PutBackWhoCrossed) {
   Settings settings = tube_water(0.05, SchemeName::riemann);
   settings.bodies[0].velocity = Vec3(0, 0, 3);
   Fluid fluid(settings);
-  MovingWall tube = quarter_tube(0.5, 0.4, 8, 6);
-  const int index = fluid.add_moving_wall(tube);
+  MirrorWall tube = quarter_tube(0.5, 0.4, 8, 6);
+  const auto index = fluid.add_wall(tube);
   fluid.step_limit();
   // The wall jumps inwards over the outermost particles.
   const Ledger start = fluid.ledger();
-  for (Vec3& x : fluid.moving_wall(index).position) x -= 0.03 * Vec3(x[0], x[1], 0).normalized();
-  for (Vec3& v : fluid.moving_wall(index).velocity) v = Vec3(0, 0, 0);
+  for (Vec3& x : fluid.wall(index).position) x -= 0.03 * Vec3(x[0], x[1], 0).normalized();
+  for (Vec3& v : fluid.wall(index).velocity) v = Vec3(0, 0, 0);
   fluid.step(1e-7);
   for (const Vec3& x : by_id(fluid, "position")) EXPECT_LT(std::hypot(x[0], x[1]), 0.4701);
   const Ledger end = fluid.ledger();
-  const Vec3 received = sum(fluid.moving_wall(index).impulse);
+  const Vec3 received = sum(fluid.wall(index).impulse);
   EXPECT_NEAR(end.momentum[2] - start.momentum[2], -received[2], 1e-11 * received.norm());
 }
 
@@ -252,7 +254,7 @@ TEST(WallImages, OfRigidContainers) {
   Settings settings = tube_water(0.05, SchemeName::riemann);
   Wall wall;
   wall.name = "tank";
-  wall.container = Cylinder{2, Vec3::Zero(), 0.5, 0.0, 0.4};
+  wall.container = Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.5, .low = 0.0, .high = 0.4};
   wall.faces = {{"side", FaceCondition::free_slip}, {"low", FaceCondition::open}, {"high", FaceCondition::no_slip}};
   settings.walls = {wall};
   const SlipFaces faces = slip_faces(settings);

@@ -89,7 +89,7 @@ TEST(Walls, PistonBooksImpulseAndWork) {
       settings.bodies = {body("water", box(Vec3(0, 0, 0), Vec3(1, 0.4, 1)), "water-tait")};
       settings.numerics.threads = 1;
       Fluid fluid(settings);
-      MovingWall piston;
+      LinedWall piston;
       piston.free_slip = slip;
       for (int i = 0; i < 3; ++i)
         for (int j = -3; j < 11; ++j) {
@@ -98,16 +98,16 @@ TEST(Walls, PistonBooksImpulseAndWork) {
           piston.normal.push_back({-1, 0, 0});
           piston.volume.push_back(0.05 * 0.05);
         }
-      const int index = fluid.add_moving_wall(piston);
+      const auto index = fluid.add_wall(piston);
       const Ledger start = fluid.ledger();
       for (int k = 0; k < 40; ++k) {
         const double dt = fluid.step_limit().step;
-        for (std::size_t q = 0; q < piston.position.size(); ++q) fluid.moving_wall(index).position[q] += dt * piston.velocity[q];
+        for (std::size_t q = 0; q < piston.position.size(); ++q) fluid.wall(index).position[q] += dt * piston.velocity[q];
         fluid.step(dt);
       }
       const Ledger end = fluid.ledger();
       Vec3 impulse = Vec3::Zero();
-      for (const Vec3& one : fluid.moving_wall(index).impulse) impulse += one;
+      for (const Vec3& one : fluid.wall(index).impulse) impulse += one;
       const Vec3 gained = end.momentum - start.momentum;
       EXPECT_LT((impulse + gained).norm(), 1e-12 * gained.norm());
       EXPECT_GT(gained[0], 0.0);
@@ -131,7 +131,7 @@ TEST(Walls, OnlyNoSlipDrags) {
     settings.bodies[0].pressure = 1e8;
     settings.numerics.threads = 1;
     Fluid fluid(settings);
-    MovingWall belt;
+    LinedWall belt;
     belt.free_slip = slip;
     for (int i = -4; i < 14; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -140,10 +140,10 @@ TEST(Walls, OnlyNoSlipDrags) {
         belt.normal.push_back({0, -1, 0});
         belt.volume.push_back(0.01);
       }
-    const int index = fluid.add_moving_wall(belt);
+    const auto index = fluid.add_wall(belt);
     fluid.step(0.2 * fluid.step_limit().step);
     Vec3 impulse = Vec3::Zero();
-    for (const Vec3& one : fluid.moving_wall(index).impulse) impulse += one;
+    for (const Vec3& one : fluid.wall(index).impulse) impulse += one;
     EXPECT_LT(impulse[1], 0.0);
     if (slip) {
       EXPECT_EQ(impulse[0], 0.0);

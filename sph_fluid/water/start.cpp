@@ -1,10 +1,8 @@
 // Set-up of a fluid: particles in their places, walls, the first evaluation.
-#include <omp.h>
-
 #include <cmath>
 
 #include "sph_fluid/lattice.hpp"
-#include "sph_fluid/water/solver.hpp"
+#include "sph_fluid/water/fluid_implementation.hpp"
 
 namespace undex::sph {
 namespace {
@@ -14,33 +12,25 @@ bool same_material(const materials::Fluid& a, const materials::Fluid& b) {
   return a.name == b.name && a.law.index() == b.law.index() && a.rho0 == b.rho0;
 }
 
-/// What the machine (or OMP_NUM_THREADS) offers, before any fluid asks for its own number.
-const int machine_threads = omp_get_max_threads();
-
 }  // namespace
 
-Fluid::Implementation::Implementation(const Settings& s)
-    : settings(s), loops(pair_loops(s.numerics.kernel, s.numerics.scheme, s.numerics.precision)) {
-  threads = s.numerics.threads > 0 ? s.numerics.threads : machine_threads;
-  omp_set_num_threads(threads);
-  scratch.resize(threads);
-  time = evaluation_time = settings.start_time;
-  dissipated = settings.heat_before;
-  kernel_scale = 1.0 / lattice_factor(s.numerics.kernel, s.numerics.eta, s.dimension);
-  slip_walls = slip_faces(settings);
+Fluid::Implementation::Implementation(const Settings& given) : Water(given), local_steps(*this) {
   fill();
   lifted = fall();
-  pack_walls();
-  particles.make_room(loops.second, s.numerics.alpha, s.numerics.integrator == Integrator::ssp_rk3);
-  evaluate(0.0, 0.0);
-  watch_for_signals();
+  evaluation.pack_walls(all);
+  all.particles.make_room(evaluation.loops().second, settings.numerics.alpha,
+                          settings.numerics.integrator == Integrator::ssp_rk3);
+  evaluate(all, {.time = clock.time});
+  evaluation.signals().watch(settings, all);
 }
 
 void Fluid::Implementation::fill() {
   std::vector<BodyParticles> bodies = fill_bodies(settings);
   std::size_t n = 0;
   for (const BodyParticles& body : bodies) n += body.position.size();
+  bool has_energy = false;
   for (const Body& body : settings.bodies) has_energy = has_energy || materials::uses_energy(body.material.law);
+  Particles& particles = all.particles;
   particles.resize(n, has_energy);
   std::uint32_t at = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -77,12 +67,12 @@ void Fluid::Implementation::fill() {
       if (same_material(settings.bodies[earlier].material, body.material)) group.material = std::uint32_t(earlier);
     bodies[b] = {};  // its memory is wanted
     if (body.start) lay_on(*body.start, group);
-    groups.push_back(std::move(group));
+    all.groups.push_back(std::move(group));
   }
 }
 
 void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
-  Particles& p = particles;
+  Particles& p = all.particles;
   const bool with_energy = materials::uses_energy(group.body->material.law);
   double mass = 0, kinetic = 0, internal = 0;
   for (std::uint32_t i = group.begin; i < group.end; ++i) {
@@ -104,28 +94,11 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
   // at a spacing of a tenth of the charge's radius).
   const double heat = start.kinetic_energy - kinetic * heavier;
   const double hotter = internal > 0 ? (start.internal_energy + heat) / (internal * heavier) : 1.0;
-  if (!with_energy) dissipated += heat;
+  if (!with_energy) exchange.dissipated += heat;
   for (std::uint32_t i = group.begin; i < group.end; ++i) {
     p.mass[i] *= heavier;
     if (with_energy) p.energy[i] *= hotter;
   }
-}
-
-void Fluid::Implementation::watch_for_signals() {
-  everywhere = !moving.empty() || settings.numerics.signal <= 0.0 || !settings.gravity.isZero();
-  for (const Body& body : settings.bodies) everywhere = everywhere || body.burn.has_value();
-  if (everywhere) return;
-  for (std::uint32_t i = 0; i < particles.size(); ++i) {
-    const SumRow& rate = particles.rate[i];
-    const FluidRow& q = particles.predicted[i];
-    const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
-    // Round-off of the pressure itself, too, is rest.
-    if (std::sqrt(a2) * q.rho * q.h > 1e-10 * std::abs(q.p) + 1e-14 * q.rho * q.c * q.c)
-      disturbed.add({particles.x[i], particles.y[i], particles.z[i]});
-  }
-  find_signals();
-  for (std::uint32_t i = 0; i < particles.size(); ++i)
-    if (!disturbed.within({particles.x[i], particles.y[i], particles.z[i]}, reach)) particles.rate[i] = SumRow{};
 }
 
 }  // namespace undex::sph

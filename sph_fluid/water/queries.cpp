@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 #include "sph_fluid/pairs/kernels.hpp"
-#include "sph_fluid/water/solver.hpp"
+#include "sph_fluid/water/fluid_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
 namespace undex::sph {
@@ -26,8 +26,8 @@ double barotropic_energy(const materials::FluidLaw& law, double rho) {
 
 // ---- What others ask ------------------------------------------------------------------------------------------------
 
-BodyLimit Fluid::Implementation::limit_of(const Group& group) const {
-  const Numerics& numerics = settings.numerics;
+BodyLimit limit_of(const ParticleSet& set, const Group& group, const Numerics& numerics) {
+  const Particles& particles = set.particles;
   // Monaghan 1992, Annu. Rev. Astron. Astrophys. 30, eq. 10.2, for a viscosity; a Riemann flux moves with the fluid.
   const bool viscous = is_viscous(numerics.scheme);
   const double alpha = viscous ? 0.6 * numerics.alpha : 0.0, beta = viscous ? 0.6 * numerics.beta : 1.0;
@@ -73,28 +73,28 @@ BodyLimit Fluid::Implementation::limit_of(const Group& group) const {
 }
 
 StepLimit Fluid::Implementation::step_limit() {
-  if (!evaluated) evaluate(0.0, 0.0);
-  require(sound);  // as the scene was given: a step does not end so
+  if (!evaluated) evaluate(all, {.time = clock.time});
+  require(all.healthy, all);  // as the scene was given: a step does not end so
   std::vector<BodyLimit> limits;
   const auto find_limits = [&] {
     limits.clear();
-    for (const Group& group : groups) limits.push_back(limit_of(group));
+    for (const Group& group : all.groups) limits.push_back(limit_of(all, group, settings.numerics));
   };
   find_limits();
-  if (may_part() && choose_fast_bodies(limits)) find_limits();
+  if (local_steps.may_part() && local_steps.choose(limits)) find_limits();
   limits_known = true;
   BodyLimit worst;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
+  for (std::size_t g = 0; g < all.groups.size(); ++g) {
     BodyLimit limit = limits[g];
-    if (groups[g].fast) limit.step *= most_substeps;
+    if (all.groups[g].fast) limit.step *= LocalSteps::most_substeps;
     if (limit.step < worst.step) worst = limit;
   }
   StepLimit limit;
   limit.step = worst.step;
   limit.criterion = worst.criterion;
-  limit.particle = particles.id[worst.particle];
-  limit.position = {particles.x[worst.particle], particles.y[worst.particle], particles.z[worst.particle]};
-  limit.body = body_of(worst.particle).name;
+  limit.particle = all.particles.id[worst.particle];
+  limit.position = place_of(all.particles, worst.particle);
+  limit.body = body_of(all, worst.particle).name;
   if (settings.numerics.fixed_step) {
     limit.step = *settings.numerics.fixed_step;
     limit.criterion = "fixed";
@@ -102,50 +102,8 @@ StepLimit Fluid::Implementation::step_limit() {
   return limit;
 }
 
-const Body& Fluid::Implementation::body_of(std::uint32_t i) const {
-  for (const Group& group : groups)
-    if (i < group.end) return *group.body;
-  return *groups.back().body;
-}
-
-const char* Fluid::Implementation::remedy() const {
-  if (settings.numerics.fixed_step) return "a smaller scheme.fixed_step, or none,";
-  return is_viscous(settings.numerics.scheme) ? "a smaller scheme.courant or a larger scheme.beta" : "a smaller scheme.courant";
-}
-
-std::string Fluid::Implementation::what_is_wrong() const {
-  const Particles& p = particles;
-  char text[400];
-  for (std::uint32_t i = 0; i < p.size(); ++i) {
-    const std::pair<const char*, double> values[] = {{"position", p.x[i] + p.y[i] + p.z[i]},
-                                                     {"velocity", p.vx[i] + p.vy[i] + p.vz[i]},
-                                                     {"density", p.rho[i]},
-                                                     {"acceleration", p.rate[i].fx + p.rate[i].fy + p.rate[i].fz},
-                                                     {"pressure", p.predicted[i].p},
-                                                     {"sound speed", p.predicted[i].c},
-                                                     {"heating", p.rate[i].heat}};
-    for (const auto& [name, value] : values)
-      if (!std::isfinite(value)) {
-        std::snprintf(text, sizeof text,
-                      "step %ld, time %.6g s: %s of particle %u (body '%s') is not finite, near (%.5g, %.5g, %.5g) m; "
-                      "%s may hold it",
-                      steps, time, name, p.id[i], body_of(i).name.c_str(), p.x[i], p.y[i], p.z[i], remedy());
-        return text;
-      }
-  }
-  const auto speed = [&](std::uint32_t i) { return std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]); };
-  std::uint32_t i = 0;
-  for (std::uint32_t k = 0; k < p.size(); ++k)
-    if (speed(k) > speed(i)) i = k;
-  std::snprintf(text, sizeof text,
-                "step %ld, time %.6g s: speeds beyond all physics; the fastest is particle %u (body '%s') with %.3g m/s at "
-                "(%.5g, %.5g, %.5g) m; %s may hold it",
-                steps, time, p.id[i], body_of(i).name.c_str(), speed(i), p.x[i], p.y[i], p.z[i], remedy());
-  return text;
-}
-
 double Fluid::Implementation::fall() const {
-  const Particles& p = particles;
+  const Particles& p = all.particles;
   const Vec3& g = settings.gravity;
   if (g.isZero()) return 0.0;
   return blocked_sum<double>(0, std::uint32_t(p.size()),
@@ -153,7 +111,7 @@ double Fluid::Implementation::fall() const {
 }
 
 Ledger Fluid::Implementation::ledger() const {
-  const Particles& p = particles;
+  const Particles& p = all.particles;
   struct Part {
     double kinetic = 0, internal = 0, mass = 0;
     double momentum[3] = {0, 0, 0};
@@ -165,7 +123,7 @@ Ledger Fluid::Implementation::ledger() const {
     }
   };
   Ledger ledger;
-  for (const Group& group : groups) {
+  for (const Group& group : all.groups) {
     const materials::FluidLaw& law = group.body->material.law;
     const bool with_energy = materials::uses_energy(law);
     const Part part = blocked_sum<Part>(group.begin, group.end, [&](std::uint32_t i) {
@@ -183,15 +141,15 @@ Ledger Fluid::Implementation::ledger() const {
     ledger.mass += part.mass;
     for (int a = 0; a < 3; ++a) ledger.momentum[a] += part.momentum[a];
   }
-  ledger.dissipated = dissipated;
-  ledger.wall_work = wall_work;
+  ledger.dissipated = exchange.dissipated;
+  ledger.wall_work = exchange.wall_work;
   ledger.gravity = fall() - lifted;
   return ledger;
 }
 
 template <class Visit>
 void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visit visit) const {
-  for (const Group& group : groups) {
+  for (const Group& group : all.groups) {
     if (group.cells.order().empty()) continue;
     const CellGrid grid = group.cells.view();
     const double reach = radius_over_h * group.h_max;
@@ -214,8 +172,8 @@ void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visi
           for (int ix = first[0]; ix <= last[0]; ++ix) {
             const std::size_t cell = (std::size_t(iz) * grid.count[1] + iy) * grid.count[0] + ix;
             for (std::uint32_t i = grid.start[cell]; i < grid.start[cell + 1]; ++i) {
-              const double r = (Vec3(particles.x[i], particles.y[i], particles.z[i]) - at).norm();
-              if (r < radius_over_h * particles.predicted[i].h) visit(i, r, group, image);
+              const double r = (place_of(all.particles, i) - at).norm();
+              if (r < radius_over_h * all.particles.predicted[i].h) visit(i, r, group, image);
             }
           }
     }
@@ -227,7 +185,7 @@ FluidPoint Fluid::Implementation::at(const Vec3& point) const {
   FluidPoint values;
   double weight = 0;
   around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
-    const FluidRow& q = particles.predicted[i];
+    const FluidRow& q = all.particles.predicted[i];
     const double w = q.volume * value<WendlandC2>(r, shrink * q.h, settings.dimension);
     weight += w;
     values.pressure += w * q.p;
@@ -247,7 +205,7 @@ FluidPoint Fluid::Implementation::at(const Vec3& point) const {
 }
 
 std::vector<double> Fluid::Implementation::field(std::string_view name) const {
-  const Particles& p = particles;
+  const Particles& p = all.particles;
   const std::size_t n = p.size();
   std::vector<double> out(n);
   const auto scalar = [&](auto f) {
@@ -261,8 +219,8 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
   } else if (name == "smoothing_length") {
     scalar([&](std::size_t i) { return p.predicted[i].h; });
   } else if (name == "void_fraction" || name == "material" || name == "energy") {
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const Group& group = groups[g];
+    for (std::size_t g = 0; g < all.groups.size(); ++g) {
+      const Group& group = all.groups[g];
       const materials::FluidLaw& law = group.body->material.law;
       for (std::uint32_t i = group.begin; i < group.end; ++i)
         out[i] = name == "material"            ? double(g)

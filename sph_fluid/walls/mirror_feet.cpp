@@ -1,0 +1,169 @@
+#include "sph_fluid/walls/mirror_feet.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/surface.hpp"
+#include "sph_fluid/walls/reflection.hpp"
+
+namespace undex::sph {
+namespace {
+
+/// Calls visit(particle) for all in the cells that a box touches.
+template <class Visit>
+void for_each_in_cells(const CellGrid& grid, const Bounds& box, Visit visit) {
+  int first[3], last[3];
+  for (int a = 0; a < 3; ++a) {
+    if (box.low[a] > grid.bound_high[a] || box.high[a] < grid.bound_low[a]) return;
+    first[a] = int(std::clamp((box.low[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
+    last[a] = int(std::clamp((box.high[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
+  }
+  for (int iz = first[2]; iz <= last[2]; ++iz)
+    for (int iy = first[1]; iy <= last[1]; ++iy) {
+      const std::uint32_t* row = grid.start + (std::size_t(iz) * grid.count[1] + iy) * grid.count[0];
+      for (std::uint32_t i = row[first[0]]; i < row[last[0] + 1]; ++i) visit(i);
+    }
+}
+
+/// Feet on one face.
+class FaceSearch {
+ public:
+  FaceSearch(const BilinearPatch& patch, double beyond) : patch_(patch), beyond_(beyond) {
+    uu_ = middle_.foot_u.squaredNorm(), uv_ = middle_.foot_u.dot(middle_.foot_v), vv_ = middle_.foot_v.squaredNorm();
+    determinant_ = uu_ * vv_ - uv_ * uv_;
+    for (const Vec3& n : patch_.normal) lean_ = std::max(lean_, (n - middle_.normal).norm());
+  }
+
+  /// Calls visit(particle, its foot).
+  template <class Visit>
+  void find(const Particles& particles, const ParticleRange& range, Visit visit) const {
+    Bounds box;
+    for (int c = 0; c < 4; ++c) {
+      box.include(patch_.corner[c] + beyond_ * patch_.normal[c]);
+      box.include(patch_.corner[c] - range.depth * patch_.normal[c]);
+    }
+    // What normals that lean apart make of the face's sides at the end of its reach, beside its own curvature.
+    const double margin = 0.1 + lean_ * range.depth / std::sqrt(std::min(uu_, vv_));
+    for_each_in_cells(range.cells->view(), box, [&](std::uint32_t i) {
+      const Vec3 x(particles.x[i], particles.y[i], particles.z[i]);
+      PatchPoint at = guess(x);
+      if (std::abs(at.u - 0.5) > 0.5 + margin || std::abs(at.v - 0.5) > 0.5 + margin) return;
+      if (patch_.project(x, range.depth, at) && is_on_face(at, range.depth)) visit(i, at);
+    });
+  }
+
+ private:
+  /// As if the face were the plane through its middle.
+  PatchPoint guess(const Vec3& x) const {
+    const Vec3 away = x - middle_.foot;
+    const double bu = away.dot(middle_.foot_u), bv = away.dot(middle_.foot_v);
+    return {.u = 0.5 + (vv_ * bu - uv_ * bv) / determinant_,
+            .v = 0.5 + (uu_ * bv - uv_ * bu) / determinant_,
+            .distance = -away.dot(middle_.normal)};
+  }
+  bool is_on_face(const PatchPoint& at, double depth) const {
+    constexpr double edge = 1e-7;
+    if (at.u < -edge || at.u > 1 + edge || at.v < -edge || at.v > 1 + edge) return false;
+    return at.distance > -beyond_ && at.distance < depth;
+  }
+
+  BilinearPatch patch_;
+  double beyond_;
+  BilinearPatch::Frame middle_ = patch_.frame(0.5, 0.5);
+  double uu_, uv_, vv_, determinant_, lean_ = 0.0;
+};
+
+/// Feet on all faces of one wall, in no order.
+std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, const Particles& particles,
+                              std::span<const ParticleRange> ranges, double beyond) {
+  std::vector<std::vector<WallFoot>> found(omp_get_max_threads());
+#pragma omp parallel
+  {
+    std::vector<WallFoot>& mine = found[omp_get_thread_num()];
+#pragma omp for schedule(static)
+    for (int f = 0; f < faces; ++f) {
+      const FaceSearch search(seen.patch(wall, f), beyond);
+      for (const ParticleRange& range : ranges)
+        if (range.first < range.last && range.depth > 0.0)
+          search.find(particles, range, [&](std::uint32_t i, const PatchPoint& at) {
+            mine.push_back({.particle = i, .wall = wall, .face = f, .at = at});
+          });
+    }
+  }
+  std::vector<WallFoot> feet;
+  for (const auto& part : found) feet.insert(feet.end(), part.begin(), part.end());
+  return feet;
+}
+
+}  // namespace
+
+SeenMirrors::SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
+                         const std::array<bool, 3>& symmetry)
+    : walls_(walls) {
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    normal_.push_back(node_normals(walls[w].faces, walls[w].position, symmetry));
+    velocity_.push_back(footprints[w].seen(walls[w].velocity));
+  }
+}
+
+BilinearPatch SeenMirrors::patch(int wall, int face) const {
+  BilinearPatch patch;
+  const auto& nodes = walls_[wall].faces[face];
+  for (int c = 0; c < 4; ++c) {
+    patch.corner[c] = walls_[wall].position[nodes[c]];
+    patch.normal[c] = normal_[wall][nodes[c]];
+  }
+  return patch;
+}
+
+WallPoint SeenMirrors::point(const WallFoot& foot) const {
+  const BilinearPatch::Frame frame = patch(foot.wall, foot.face).frame(foot.at.u, foot.at.v);
+  const auto weight = bilinear_weights(foot.at.u, foot.at.v);
+  const auto& nodes = walls_[foot.wall].faces[foot.face];
+  Vec3 velocity = Vec3::Zero();
+  for (int c = 0; c < 4; ++c) velocity += weight[c] * velocity_[foot.wall][nodes[c]];
+  const double here = frame.element(-foot.at.distance), there = frame.element(foot.at.distance);
+  return {
+      .foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(here > 0.0 ? there / here : 0.0)};
+}
+
+double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {
+  double least = 1e300;
+  for (const MirrorWall& wall : walls) {
+    double longest = 0.0;
+    for (const auto& face : wall.faces)
+      longest = std::max({longest, (wall.position[face[0]] - wall.position[face[2]]).norm(),
+                          (wall.position[face[1]] - wall.position[face[3]]).norm()});
+    for (const Vec3& x : wall.position)
+      least = std::min(least, (box.low - x).cwiseMax(x - box.high).cwiseMax(0.0).norm() - 0.5 * longest);
+  }
+  return std::max(least, 0.0);
+}
+
+std::vector<WallFoot> find_feet(const std::vector<MirrorWall>& walls, const SeenMirrors& seen, const Particles& particles,
+                                std::span<const ParticleRange> ranges, double beyond) {
+  std::vector<WallFoot> feet;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const std::vector<WallFoot> more = feet_on(int(w), int(walls[w].faces.size()), seen, particles, ranges, beyond);
+    feet.insert(feet.end(), more.begin(), more.end());
+  }
+  std::sort(feet.begin(), feet.end(), [](const WallFoot& a, const WallFoot& b) {
+    return std::tie(a.particle, a.wall, a.face) < std::tie(b.particle, b.wall, b.face);
+  });
+  // On an edge of two faces both have found it.
+  const auto same = [&](const WallFoot& a, const WallFoot& b) {
+    return a.particle == b.particle && a.wall == b.wall && (seen.point(a).foot - seen.point(b).foot).norm() < beyond;
+  };
+  feet.erase(std::unique(feet.begin(), feet.end(), same), feet.end());
+  return feet;
+}
+
+void add_at(const WallFoot& foot, const std::vector<MirrorWall>& walls, const Vec3& load, PointLoads& loads) {
+  const auto weight = bilinear_weights(foot.at.u, foot.at.v);
+  for (int c = 0; c < 4; ++c) loads[foot.wall][walls[foot.wall].faces[foot.face][c]] += weight[c] * load;
+}
+
+}  // namespace undex::sph

@@ -1,0 +1,61 @@
+// Particles before the meshes of mirror walls: where each stands over them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bilinear_patch.hpp"
+#include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/walls/footprint.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/walls/particles.hpp"
+
+namespace undex::sph {
+
+/// Particles sorted by cells, of which those nearer to a wall than `depth` have images.
+struct ParticleRange {
+  std::uint32_t first, last;
+  const CellList* cells;
+  double width;  ///< of the images' cells [m]
+  double depth;  ///< [m]
+};
+
+/// Where a particle stands over a mirror wall.
+struct WallFoot {
+  std::uint32_t particle;
+  int wall, face;
+  PatchPoint at;
+};
+
+/// What a mirror wall is at a foot.
+struct WallPoint {
+  Vec3 foot, normal, velocity;
+  double stretch;  ///< of the volume of an image, see image_volume
+};
+
+/// Mirror walls at one moment, with normals at their nodes and the velocities that a particle's footprint shows.
+class SeenMirrors {
+ public:
+  SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
+              const std::array<bool, 3>& symmetry);
+
+  BilinearPatch patch(int wall, int face) const;
+  WallPoint point(const WallFoot& foot) const;
+
+ private:
+  const std::vector<MirrorWall>& walls_;
+  PointLoads normal_, velocity_;  // per wall and node
+};
+
+/// A lower bound of the distance [m] between particles within a box and any mirror wall.
+double clearance(const std::vector<MirrorWall>& walls, const Bounds& box);
+
+/// All feet of the ranges' particles within their depths, and behind the walls by less than `beyond` [m]; sorted by particle.
+std::vector<WallFoot> find_feet(const std::vector<MirrorWall>& walls, const SeenMirrors& seen, const Particles& particles,
+                                std::span<const ParticleRange> ranges, double beyond);
+
+/// Adds a load at a foot to the nodes of its face.
+void add_at(const WallFoot& foot, const std::vector<MirrorWall>& walls, const Vec3& load, PointLoads& loads);
+
+}  // namespace undex::sph

@@ -1,0 +1,94 @@
+// The free-slip faces of the scene's containers: where particles have images in them, and where those that have crossed one are
+// put back.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/shapes.hpp"
+#include "sph_fluid/settings.hpp"
+
+namespace undex::sph {
+
+struct SlipFaces {
+  /// Faces across one axis; either may be missing. Between both stand images of images, as in two mirrors.
+  struct Pair {
+    int axis;
+    double low, high;  ///< [m]; -+1e300 where there is none
+    bool symmetric;    ///< is `low` a symmetry plane, whose own images are not stored?
+    Bounds window;     ///< of the container
+  };
+  std::vector<Cylinder> round;  ///< their sides
+  std::vector<Pair> plane;
+
+  bool empty() const { return round.empty() && plane.empty(); }
+};
+SlipFaces slip_faces(const Settings& settings);
+
+/// Does the scheme mirror the fluid in slip walls? (The published one lines them with dummy particles.)
+constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::paper; }
+
+/// A lower bound of the distance [m] between particles within a box and any of the faces.
+double clearance(const SlipFaces& faces, const Bounds& box);
+
+/// A particle's image in a face.
+struct Reflection {
+  Vec3 place = Vec3::Zero();   ///< [m]
+  Vec3 normal = Vec3::Zero();  ///< zero: an even number of mirrors
+  double stretch = 1.0;        ///< volume over the particle's
+};
+
+/// The image of a place in a round wall; none farther from it than `depth` [m].
+std::optional<Reflection> image_in(const Cylinder& wall, const Vec3& x, double depth, int dimension);
+/// Calls visit(Reflection) for all images between and behind the faces of a pair: a series on either side, each image of the last
+/// in the other face.
+template <class Visit>
+void images_in(const SlipFaces::Pair& faces, const Vec3& x, double depth, int dimension, Visit visit) {
+  const double at = x[faces.axis];
+  if (at - faces.low >= depth && faces.high - at >= depth) return;  // most
+  if (at < faces.low || at > faces.high) return;
+  for (int a = 0; a < dimension; ++a)
+    if (a != faces.axis && (x[a] < faces.window.low[a] - depth || x[a] > faces.window.high[a] + depth)) return;
+  // False beyond reach.
+  const auto offer = [&](double place, bool odd) {
+    if (place <= faces.low - depth || place >= faces.high + depth) return false;
+    if (faces.symmetric && place < faces.low) return true;
+    Reflection image;
+    image.place = x;
+    image.place[faces.axis] = place;
+    if (odd) image.normal[faces.axis] = 1.0;
+    visit(image);
+    return true;
+  };
+  const bool both = faces.low > -1e299 && faces.high < 1e299;
+  if (!both) {
+    offer(2.0 * (faces.low > -1e299 ? faces.low : faces.high) - at, true);
+    return;
+  }
+  for (int side = 0; side < 2; ++side) {
+    double place = at;
+    bool odd = true;
+    for (int k = 0;; ++k, odd = !odd) {
+      place = 2.0 * ((k + side) % 2 == 0 ? faces.low : faces.high) - place;
+      if (!offer(place, odd)) break;
+    }
+  }
+  return;
+}
+
+/// Where a place beyond a face belongs.
+struct Crossing {
+  Vec3 place, normal, foot;
+};
+
+/// Is a place beyond one of the faces? Nearly none is, and all are asked.
+inline bool is_beyond(const SlipFaces::Pair& faces, const Vec3& x) {
+  const double at = x[faces.axis];
+  return (at < faces.low && !faces.symmetric) || at > faces.high;
+}
+
+/// Of a place beyond the face by no more than `far` [m]; beyond that it is not this wall's.
+std::optional<Crossing> crossing(const Cylinder& wall, const Vec3& x, double far, int dimension);
+std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension);
+
+}  // namespace undex::sph

@@ -1,0 +1,54 @@
+// What a Fluid is made of: the water, its integrators, set-up (start.cpp) and what others ask (queries.cpp).
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "sph_fluid/water/local_steps.hpp"
+#include "sph_fluid/water/water.hpp"
+
+namespace undex::sph {
+
+struct Fluid::Implementation : Water {
+  LocalSteps local_steps;
+  double lifted = 0;          // fall() at the start [J]
+  bool limits_known = false;  // has step_limit been asked since the last step?
+
+  explicit Implementation(const Settings& settings);
+
+  // Set-up: start.cpp.
+  void fill();
+  /// Replaces a body's uniform start; mass, kinetic energy and (with an energy field) internal energy become exact.
+  void lay_on(const StartField& start, Group& group);
+  /// Sum of m g . x [J]: what it has grown by is gravity's work.
+  double fall() const;
+
+  // The step: step.cpp.
+  void step(double dt);
+  /// A step of several evaluations. Where one goes wrong, all is put back to the step's beginning and has no rates.
+  template <class Step>
+  void step_or_stay(Step step);
+  /// A wall has joined: rates are no longer those of the scene.
+  void expect_walls();
+
+  // What others ask: queries.cpp.
+  StepLimit step_limit();
+  Ledger ledger() const;
+  /// Calls visit(index, distance, group, image) for every particle, images included, within `radius_over_h` of its own h of the
+  /// point.
+  template <class Visit>
+  void around(const Vec3& point, double radius_over_h, Visit visit) const;
+  /// Shepard average with Wendland's kernel at h = 1.2 spacings, whatever the scheme's own.
+  FluidPoint at(const Vec3& point) const;
+  std::vector<double> field(std::string_view name) const;
+  template <class F>
+  double largest(F f) const {
+    double result = 0;
+#pragma omp parallel for schedule(static) reduction(max : result)
+    for (std::size_t i = 0; i < all.particles.size(); ++i) result = std::max(result, f(i));
+    return result;
+  }
+};
+
+}  // namespace undex::sph

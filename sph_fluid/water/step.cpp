@@ -1,0 +1,45 @@
+#include "sph_fluid/water/leapfrog.hpp"
+#include "sph_fluid/water/fluid_implementation.hpp"
+#include "sph_fluid/water/ssp_rk3.hpp"
+
+namespace undex::sph {
+
+void Fluid::Implementation::step(double dt) {
+  if (!evaluated || (local_steps.may_part() && !limits_known)) step_limit();
+  if (local_steps.parted()) step_or_stay([&] { local_steps.step(dt); });
+  else if (settings.numerics.integrator == Integrator::ssp_rk3) step_or_stay([&] { step_ssp_rk3(*this, dt); });
+  else step_leapfrog(*this, dt);
+  clock.time += dt;
+  all.last_step = dt;
+  ++clock.steps;
+  limits_known = false;
+}
+
+template <class Step>
+void Fluid::Implementation::step_or_stay(Step step) {
+  const std::vector<WallMotion> shown = walls.motions();
+  const WallLoads impulses = walls.impulses();
+  const Exchange booked = exchange;
+  all.particles.keep_start();
+  try {
+    step();
+  } catch (const NumericalStop&) {
+    all.particles.restore_start();
+    cross_mirrors(all);
+    exchange = booked;
+    walls.show(shown);
+    walls.set_impulses(impulses);
+    if (local_steps.parted()) local_steps.join();
+    evaluation.rest(all, clock.time);
+    throw;
+  }
+}
+
+void Fluid::Implementation::expect_walls() {
+  all.wall_force = walls.unloaded();
+  evaluation.signals().expect_everywhere();
+  local_steps.join();
+  evaluated = false;
+}
+
+}  // namespace undex::sph
