@@ -210,7 +210,8 @@ std::string format_comparison(const std::vector<LabelledMetrics>& runs, const Re
   std::string text;
   for (std::size_t begin = grid.first_source(); begin < grid.columns();) {
     const std::size_t end = grid.last_that_fits(begin, max_width);
-    text += (begin > grid.first_source() ? "\n" : "") + grid.block(begin, end);
+    if (begin > grid.first_source()) text += '\n';
+    text += grid.block(begin, end);
     begin = end;
   }
   return text;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails on an include that the architecture forbids, and on paths of somebody's machine.
+"""Fails on an include that the architecture forbids, on paths of somebody's machine, and on named files that do not exist.
 
 The graph is MAY_INCLUDE: app -> study -> judge -> run -> coupling -> {sph_solid, fem_structure, sph_fluid} -> materials -> core; within
 sph_fluid water -> walls -> settings -> schemes -> pairs. scene sees the settings of the modules that it fills, never a solver. deal.II stays
@@ -67,6 +67,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 SOURCES = {".hpp", ".cpp", ".h", ".cc", ".inc"}
 TEXTS = SOURCES | {".md", ".toml", ".txt", ".cmake", ".py", ".sh", ".json", ".csv", ".yml", ".yaml", ""}
 FOREIGN = re.compile(r"(?<![\w.])/(?:work|home|root|Users|tmp/build)[/\w]*|(?<![\w.-])shared/[\w.]+")
+NAMED_FILE = re.compile(r"(?<![\w/.-])([a-z_0-9]+(?:/[a-z_0-9]+)*\.(?:hpp|cpp))\b")
 SKIPPED = {".git", "build", "out", "__pycache__"}  # what git ignores too
 HERE = pathlib.PurePosixPath("tests/architecture/check_includes.py")
 
@@ -160,15 +161,27 @@ def check_paths(root, relative, findings):
         findings.append(f"{relative}:{line}: mentions {found.group(0)}, a path outside the project")
 
 
+def check_named_files(root, relative, names, findings):
+    """A C++ file that a text names is there, in the folder that it says; <name>.hpp and the like stand for any."""
+    if relative.suffix not in TEXTS or pathlib.PurePosixPath(relative) == HERE:
+        return
+    for number, line in enumerate((root / relative).read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+        for named in NAMED_FILE.findall(line) if "<" not in line and ".cpp.in" not in line else []:
+            if not any(each == named or each.endswith("/" + named) for each in names):
+                findings.append(f"{relative}:{number}: names {named}, which does not exist")
+
+
 def check(root):
     findings = []
     counted = 0
+    names = [relative.as_posix() for relative in files(root)]
     for relative in files(root):
         if relative.parts[0] in MODULES and relative.suffix in SOURCES:
             counted += 1
             check_module(root, relative, findings)
             check_room(root, relative, findings)
         check_paths(root, relative, findings)
+        check_named_files(root, relative, names, findings)
     check_deal_ii_is_private(root, findings)
     check_per_level(root, findings)
     if counted == 0:
@@ -188,6 +201,7 @@ def self_test():
         "coupling/a.cpp": ("#include <deal.II/grid/tria.h>", "belongs to fem_structure"),
         "fem_structure/structure.hpp": ('#include "fem_structure/private.hpp"', "deal.II is seen"),
         "docs/a.md": ("see /" + "home/me/notes", "a path outside"),
+        "docs/b.md": ("see `core/none.hpp`", "does not exist"),
         "app/a.cpp": ('#include "run.hpp"', "without its module"),
         "run/a.cpp": ('#include "judge/judge.hpp"', "run must not include"),
         "judge/a.cpp": ('#include "study/study.hpp"', "judge must not include"),

@@ -13,7 +13,7 @@ class CavitatingTube : public Schemes {};
 TEST_P(CavitatingTube, WaveAndVoid) {
   const double spacing = 1e-3, time = 0.2e-3;
   Settings settings = scene_1d(spacing, GetParam());
-  settings.numerics.kernel = KernelName::gaussian;  // see acoustic_wave.cpp: Wendland's carries sound 1.2 % too slowly in 1D
+  settings.numerics.kernel = KernelName::gaussian;  // see acoustic_wave_test.cpp: Wendland's carries sound 1.2 % too slowly in 1D
   settings.numerics.eta = 1.2;
   // Longer than the metre that is looked at, so that the free ends are not felt there.
   settings.bodies = {slab("left", -0.5, 0.5, "water-tait", -100), slab("right", 0.5, 1.5, "water-tait", 100)};
