@@ -218,7 +218,9 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension) {
   // A wall may be thinner than any cell that can be afforded: take it as the difference of two solid cylinders.
   if (const auto* tube = std::get_if<TubeShape>(&shape.base); tube && tube->inner > 0 && has_radius(tube->axis, dimension)) {
     const auto solid = [&](double radius) {
-      return volume({Cylinder{tube->axis, tube->center, radius, tube->low, tube->high}, shape.removed}, window, dimension);
+      return volume({Cylinder{.axis = tube->axis, .center = tube->center, .radius = radius, .low = tube->low, .high = tube->high},
+                     shape.removed},
+                    window, dimension);
     };
     return std::max(solid(tube->outer) - solid(tube->inner), 0.0);
   }

@@ -87,7 +87,10 @@ Profile exact_line(const Case& c) {
 // ---------------------------------------------------------------------------------------------------- Riemann problem
 
 exact::RiemannSide side_of(const sph::Body& body) {
-  return {body.material.law, sph::start_density(body), body.velocity[0], sph::start_energy(body)};
+  return {.law = body.material.law,
+          .density = sph::start_density(body),
+          .velocity = body.velocity[0],
+          .energy = sph::start_energy(body)};
 }
 
 /// Where the exact pressure on one side has changed by half from the outer state to the star's, as x/t [m/s].

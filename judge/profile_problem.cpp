@@ -35,7 +35,7 @@ ProfileProblem riemann(const sph::Settings& fluid) {
           "\"riemann\" needs bodies that meet in one plane across x; '" + fluid.bodies[left].name +
               "' ends at x = " + std::to_string(interface) + " m, '" + fluid.bodies[right].name + "' begins at " +
               std::to_string(box[right].low[0]) + " m");
-  return {Solution::riemann, left, right, false, Vec3(interface, 0, 0)};
+  return {.solution = Solution::riemann, .first = left, .second = right, .center = Vec3(interface, 0, 0)};
 }
 
 /// Is the body a box between slip walls (or symmetry planes, which a wall's box spans) on all sides along x?
@@ -60,7 +60,8 @@ bool fills_a_duct(const sph::Settings& fluid, const sph::Body& body) {
 ProfileProblem taylor_wave(const sph::Settings& fluid) {
   require(fluid.bodies.size() == 1 && fluid.bodies[0].burn && at_rest(fluid.bodies[0]),
           "\"taylor_wave\" needs one body alone, a charge at rest with a programmed burn");
-  return {Solution::taylor_wave, 0, 0, fills_a_duct(fluid, fluid.bodies[0]), fluid.bodies[0].burn->origin};
+  return {
+      .solution = Solution::taylor_wave, .plane = fills_a_duct(fluid, fluid.bodies[0]), .center = fluid.bodies[0].burn->origin};
 }
 
 ProfileProblem sedov(const sph::Settings& fluid) {
@@ -73,14 +74,15 @@ ProfileProblem sedov(const sph::Settings& fluid) {
   require(at_rest(a) && at_rest(b) && start_density(a) == start_density(b), wanted);
   const std::size_t hot = start_energy(a) > start_energy(b) ? 0 : 1, cold = 1 - hot;
   require(start_energy(fluid.bodies[cold]) < 1e-3 * start_energy(fluid.bodies[hot]), wanted);
-  return {Solution::sedov, hot, cold, false, middle(fluid.bodies[hot].shape.base, fluid.dimension)};
+  return {
+      .solution = Solution::sedov, .first = hot, .second = cold, .center = middle(fluid.bodies[hot].shape.base, fluid.dimension)};
 }
 
 ProfileProblem noh(const sph::Settings& fluid) {
   require(fluid.bodies.size() == 1 && ideal_gas(fluid.bodies[0]) && start_energy(fluid.bodies[0]) == 0.0 &&
               fluid.bodies[0].velocity.isZero() && fluid.bodies[0].radial_velocity < 0.0,
           "\"noh\" needs one body alone, of law \"ideal_gas\", without energy and with a negative radial_velocity");
-  return {Solution::noh, 0, 0, false, middle(fluid.bodies[0].shape.base, fluid.dimension)};
+  return {.solution = Solution::noh, .center = middle(fluid.bodies[0].shape.base, fluid.dimension)};
 }
 
 }  // namespace

@@ -71,8 +71,10 @@ Line line_of(const scene::Scene& scene) {
   const double face = wave.upward ? plate.low[wave.axis] : plate.high[wave.axis];
   const Bounds water = bounds(scene.fluid.bodies[run::wave_body(scene)].shape, scene.fluid.dimension);
   const double far_end = wave.upward ? water.low[wave.axis] : water.high[wave.axis];
-  return {way, way * (face - far_end), way * (wave.front - face),
-          scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
+  return {.way = way,
+          .length = way * (face - far_end),
+          .front = way * (wave.front - face),
+          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
 }
 
 /// Of the run (pressure of the first wall probe, velocity of the compared one), of the one-dimensional solution (label "_1d"),

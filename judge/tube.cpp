@@ -63,7 +63,12 @@ void add_pressure(NamedNumbers& out, const Series& p) {
 std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
   if (scene.structure)
     if (const auto* t = std::get_if<fem::TubeMesh>(&scene.structure->mesh))
-      return TubeShape{t->axis, t->center, t->inner_radius, t->outer_radius, t->low, t->high};
+      return TubeShape{.axis = t->axis,
+                       .center = t->center,
+                       .inner = t->inner_radius,
+                       .outer = t->outer_radius,
+                       .low = t->low,
+                       .high = t->high};
   std::optional<TubeShape> nearest;
   double least = 1e300;
   for (const solid::Body& solid : scene.solids.bodies) {

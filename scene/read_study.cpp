@@ -403,7 +403,7 @@ void read_runs(StudyDraft& draft, const std::vector<ComparisonKind>& kinds) {
       const auto same =
           std::find_if(mistakes.begin(), mistakes.end(), [&](const Mistake& each) { return each.message == message; });
       if (same == mistakes.end()) {
-        mistakes.push_back({place, message, run.name, 1});
+        mistakes.push_back({.place = place, .message = message, .first_run = run.name, .runs = 1});
         return;
       }
       ++same->runs;  // said of several values of an axis it is about the key

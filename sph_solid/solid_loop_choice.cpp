@@ -18,11 +18,22 @@ UNDEX_DECLARE_LEVEL(v2)
 
 SolidLoops solid_loops() {
   switch (chosen_cpu_level()) {
-    case CpuLevel::v4: return {&v4::solid_deformation, &v4::solid_forces, &v4::contact_overlap, &v4::contact_forces};
-    case CpuLevel::v3: return {&v3::solid_deformation, &v3::solid_forces, &v3::contact_overlap, &v3::contact_forces};
+    case CpuLevel::v4:
+      return {.deformation = &v4::solid_deformation,
+              .forces = &v4::solid_forces,
+              .contact_overlap = &v4::contact_overlap,
+              .contact_forces = &v4::contact_forces};
+    case CpuLevel::v3:
+      return {.deformation = &v3::solid_deformation,
+              .forces = &v3::solid_forces,
+              .contact_overlap = &v3::contact_overlap,
+              .contact_forces = &v3::contact_forces};
     case CpuLevel::v2: break;
   }
-  return {&v2::solid_deformation, &v2::solid_forces, &v2::contact_overlap, &v2::contact_forces};
+  return {.deformation = &v2::solid_deformation,
+          .forces = &v2::solid_forces,
+          .contact_overlap = &v2::contact_overlap,
+          .contact_forces = &v2::contact_forces};
 }
 
 }  // namespace undex::solid

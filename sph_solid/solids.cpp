@@ -88,7 +88,12 @@ void Solids::Implementation::fill() {
   if (updated || groups.size() > 1) {
     std::vector<SolidPairs::Range> ranges;
     for (const SolidGroup& group : groups)
-      ranges.push_back({group.begin, group.end, group.spacing, group.h, group.lagrangian == nullptr, group.body});
+      ranges.push_back({.begin = group.begin,
+                        .end = group.end,
+                        .spacing = group.spacing,
+                        .h = group.h,
+                        .updated = group.lagrangian == nullptr,
+                        .body = group.body});
     pairs = std::make_unique<SolidPairs>(settings, around, std::move(ranges));
   }
 }

@@ -167,8 +167,16 @@ ComparedBlock difference_norms(const std::vector<Quantity>& quantities) {
     const auto known = [](double value) { return !std::isnan(value); };
     if (std::none_of(l1.begin(), l1.end(), known)) return;
     const std::vector<double> none(l1.size(), nan);
-    block.rows.push_back({quantity.title() + from + ", L1", "%", std::move(l1), nan, none, none});
-    block.rows.push_back({quantity.title() + from + ", L2", "%", std::move(l2), nan, none, none});
+    block.rows.push_back({.label = quantity.title() + from + ", L1",
+                          .unit = "%",
+                          .values = std::move(l1),
+                          .from_first = none,
+                          .from_reference = none});
+    block.rows.push_back({.label = quantity.title() + from + ", L2",
+                          .unit = "%",
+                          .values = std::move(l2),
+                          .from_first = none,
+                          .from_reference = none});
   };
   for (const Quantity& quantity : quantities) {
     if (!quantity.runs.front().empty()) add(quantity, quantity.runs.front(), "");

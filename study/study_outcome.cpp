@@ -19,8 +19,12 @@ std::optional<StudyOutcome> read_outcome(const std::filesystem::path& path) {
   if (!file) return std::nullopt;
   try {
     const auto json = nlohmann::ordered_json::parse(file);
-    return StudyOutcome{json.at("status"),       json.at("message"),     json.at("cpu_times_s"),
-                        json.at("wall_times_s"), json.at("cpu_limit_s"), json.at("wall_limit_s")};
+    return StudyOutcome{.status = json.at("status"),
+                        .message = json.at("message"),
+                        .cpu_times_s = json.at("cpu_times_s"),
+                        .wall_times_s = json.at("wall_times_s"),
+                        .cpu_limit_s = json.at("cpu_limit_s"),
+                        .wall_limit_s = json.at("wall_limit_s")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

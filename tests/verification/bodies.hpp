@@ -13,17 +13,12 @@ namespace undex::sph::testing {
 
 /// One-dimensional body between low and high [m].
 inline Body slab(const std::string& name, double low, double high, const std::string& material, double velocity) {
-  return Body{name,
-              Shape{Box{Vec3(low, -1, -1), Vec3(high, 1, 1)}, {}},
-              materials::find_fluid(material).value(),
-              {},
-              Vec3(velocity, 0, 0),
-              {},
-              {},
-              {},
-              {},
-              false,
-              {}};
+  Body body;
+  body.name = name;
+  body.shape.base = Box{Vec3(low, -1, -1), Vec3(high, 1, 1)};
+  body.material = materials::find_fluid(material).value();
+  body.velocity = Vec3(velocity, 0, 0);
+  return body;
 }
 
 inline Settings scene_1d(double spacing, SchemeName scheme) {

@@ -77,7 +77,8 @@ TEST(SignedDistance, IsOneLipschitz) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> at(-3, 3);
   const std::vector<Primitive> shapes{Box{Vec3(-1, 0, 0), Vec3(1, 2, 1)}, Slab{2, 0, 1}, Sphere{Vec3(1, 0, 0), 1},
-                                      Cylinder{1, Vec3(0, 0, 1), 1, -1, 2}, TubeShape{0, Vec3::Zero(), 1, 2, -1, 1}};
+                                      Cylinder{.axis = 1, .center = Vec3(0, 0, 1), .radius = 1, .low = -1, .high = 2},
+                                      TubeShape{.axis = 0, .center = Vec3::Zero(), .inner = 1, .outer = 2, .low = -1, .high = 1}};
   for (const Primitive& shape : shapes)
     for (int dimension = 1; dimension <= 3; ++dimension)
       for (int i = 0; i < 500; ++i) {
@@ -88,13 +89,14 @@ TEST(SignedDistance, IsOneLipschitz) {
 }
 
 TEST(BoundsOfShapes, AreTight) {
-  const Bounds tube = bounds(Primitive(TubeShape{0, Vec3(9, 1, 2), 1, 3, -4, 5}), 3);
+  const Bounds tube =
+      bounds(Primitive(TubeShape{.axis = 0, .center = Vec3(9, 1, 2), .inner = 1, .outer = 3, .low = -4, .high = 5}), 3);
   EXPECT_EQ(tube.low, Vec3(-4, -2, -1));
   EXPECT_EQ(tube.high, Vec3(5, 4, 5));
   const Bounds slab = bounds(Primitive(Slab{1, 0, 1}), 2);
   EXPECT_EQ(slab.low, Vec3(-1e300, 0, 0));
   EXPECT_EQ(slab.high, Vec3(1e300, 1, 0));
-  const Bounds disc = bounds(Shape{Cylinder{2, Vec3(1, 1, 0), 1, 0, 9}, {}}, 2);
+  const Bounds disc = bounds(Shape{Cylinder{.axis = 2, .center = Vec3(1, 1, 0), .radius = 1, .low = 0, .high = 9}, {}}, 2);
   EXPECT_EQ(disc.low, Vec3(0, 0, 0));
   EXPECT_EQ(disc.high, Vec3(2, 2, 0));
 }
@@ -115,17 +117,30 @@ TEST(Volume, AgreesWithTheFormulas) {
       {"octant of a ball", {Sphere{Vec3::Zero(), 0.015}, {}}, octant, 3, pi / 6 * std::pow(0.015, 3)},
       {"disc", {Sphere{c, 0.7}, {}}, everything, 2, pi * 0.49},
       {"interval", {Sphere{c, 0.7}, {}}, everything, 1, 1.4},
-      {"cylinder", {Cylinder{2, c, r, -half, half}, {}}, everything, 3, pi * r * r * 2 * half},
-      {"octant of a cylinder", {Cylinder{2, Vec3::Zero(), r, -half, half}, {}}, octant, 3, pi * r * r * half / 4},
-      {"thin tube", {TubeShape{1, c, 0.05, 0.051, 0, 1}, {}}, everything, 3, pi * (0.051 * 0.051 - 0.0025)},
+      {"cylinder",
+       {Cylinder{.axis = 2, .center = c, .radius = r, .low = -half, .high = half}, {}},
+       everything,
+       3,
+       pi * r * r * 2 * half},
+      {"octant of a cylinder",
+       {Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = r, .low = -half, .high = half}, {}},
+       octant,
+       3,
+       pi * r * r * half / 4},
+      {"thin tube",
+       {TubeShape{.axis = 1, .center = c, .inner = 0.05, .outer = 0.051, .low = 0, .high = 1}, {}},
+       everything,
+       3,
+       pi * (0.051 * 0.051 - 0.0025)},
       {"water round a charge",
-       {Cylinder{2, Vec3::Zero(), r, -half, half}, {Sphere{Vec3::Zero(), charge}}},
+       {Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = r, .low = -half, .high = half}, {Sphere{Vec3::Zero(), charge}}},
        octant,
        3,
        pi * r * r * half / 4 - pi / 6 * std::pow(charge, 3)},
       {"box with a bite", {Box{Vec3(0, 0, 0), Vec3(1, 1, 1)}, {Sphere{Vec3(1, 1, 1), 0.5}}}, everything, 3, 1 - pi / 6 * 0.125},
       {"square with a hole",
-       {Box{Vec3(0, 0, 0), Vec3(1, 1, 0)}, {Cylinder{2, Vec3(0.5, 0.5, 0), 0.3, 0, 1}}},
+       {Box{Vec3(0, 0, 0), Vec3(1, 1, 0)},
+        {Cylinder{.axis = 2, .center = Vec3(0.5, 0.5, 0), .radius = 0.3, .low = 0, .high = 1}}},
        everything,
        2,
        1 - pi * 0.09},

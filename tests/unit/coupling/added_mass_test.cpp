@@ -91,17 +91,12 @@ struct Column {
     sph::Settings s;
     s.dimension = 1;
     s.lattice.spacing = 1.0;
-    s.bodies = {sph::Body{"water",
-                          Shape{Box{Vec3(-length, -1, -1), Vec3(0, 1, 1)}, {}},
-                          water,
-                          {},
-                          Vec3(speed, 0, 0),
-                          rest_pressure,
-                          {},
-                          {},
-                          {},
-                          false,
-                          {}}};
+    sph::Body& body = s.bodies.emplace_back();
+    body.name = "water";
+    body.shape.base = Box{Vec3(-length, -1, -1), Vec3(0, 1, 1)};
+    body.material = water;
+    body.velocity = Vec3(speed, 0, 0);
+    body.pressure = rest_pressure;
     s.numerics.threads = 1;
     if (fixed_step) s.numerics.fixed_step = *fixed_step / sound;
     return s;

@@ -40,17 +40,11 @@ struct Column {
     sph::Settings settings;
     settings.lattice.spacing = 0.005;
     const Vec3 low(0, 0, -0.06), high(0.03, 0.02, 0);
-    settings.bodies = {sph::Body{"water",
-                                 Shape{Box{low, high}, {}},
-                                 materials::find_fluid("water-tait").value(),
-                                 {},
-                                 Vec3(0, 0, s.water_speed),
-                                 {},
-                                 {},
-                                 {},
-                                 {},
-                                 false,
-                                 {}}};
+    sph::Body& body = settings.bodies.emplace_back();
+    body.name = "water";
+    body.shape.base = Box{low, high};
+    body.material = materials::find_fluid("water-tait").value();
+    body.velocity = Vec3(0, 0, s.water_speed);
     if (!s.open) {
       sph::Wall channel;
       channel.name = "channel";

@@ -13,7 +13,11 @@ namespace undex::sph::testing {
 inline Shape box(const Vec3& low, const Vec3& high) { return Shape{Box{low, high}, {}}; }
 
 inline Body body(const std::string& name, const Shape& shape, const std::string& material) {
-  return Body{name, shape, materials::find_fluid(material).value(), {}, Vec3::Zero(), {}, {}, {}, {}, false, {}};
+  Body body;
+  body.name = name;
+  body.shape = shape;
+  body.material = materials::find_fluid(material).value();
+  return body;
 }
 
 /// What a closed fluid keeps [J].

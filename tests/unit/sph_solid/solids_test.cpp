@@ -123,7 +123,7 @@ TEST_P(Both, LinearMotionStrainsEveryParticleAlike) {
 }
 
 TEST_P(Both, TurningAStressedDiscMakesNoStress) {
-  Body disc = body(Cylinder{2, Vec3::Zero(), 0.01, -1, 1}, GetParam());
+  Body disc = body(Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.01, .low = -1, .high = 1}, GetParam());
   disc.residual_stress = 1e8;
   disc.spin = Vec3(0, 0, 2000);  // the rim at 20 m/s: centrifugal stress is a thousandth of the residual one
   Scene s = scene({disc}, 0.001, 2);
@@ -154,7 +154,8 @@ TEST_P(Both, TurningAStressedDiscMakesNoStress) {
 }
 
 TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
-  Body rod = body(Cylinder{2, Vec3::Zero(), 3.8e-3, 0, 12e-3}, GetParam(), *materials::find_solid("armco-iron"));
+  Body rod = body(Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 3.8e-3, .low = 0, .high = 12e-3}, GetParam(),
+                  *materials::find_solid("armco-iron"));
   rod.velocity = Vec3(0, 0, -221);
   Scene s = scene({rod}, 0.8e-3);
   s.around.symmetry.axis = {true, true, false};

@@ -13,7 +13,15 @@ namespace {
 
 Settings tube(int axis, std::vector<int> symmetry_axes) {
   Settings settings;
-  settings.mesh = TubeMesh{axis, Vec3::Zero(), 0.04445, 0.0508, -0.1143, 0.1143, 2, 32, 8};
+  settings.mesh = TubeMesh{.axis = axis,
+                           .center = Vec3::Zero(),
+                           .inner_radius = 0.04445,
+                           .outer_radius = 0.0508,
+                           .low = -0.1143,
+                           .high = 0.1143,
+                           .cells_through = 2,
+                           .cells_around = 32,
+                           .cells_along = 8};
   settings.material = elastic(2700, 71e9, 0.33);
   settings.symmetry_axes = std::move(symmetry_axes);
   settings.wet_faces = {"inner"};
@@ -146,7 +154,13 @@ TEST(Meshes, RodFillsTheCylinder) {
     double coarse_error = 0.0;
     for (int cells : {4, 8}) {
       Settings settings;
-      settings.mesh = RodMesh{axis, Vec3::Zero(), 0.01, -0.03, 0.03, cells, 6};
+      settings.mesh = RodMesh{.axis = axis,
+                              .center = Vec3::Zero(),
+                              .radius = 0.01,
+                              .low = -0.03,
+                              .high = 0.03,
+                              .cells_radial = cells,
+                              .cells_along = 6};
       settings.material = elastic(1, 1, 0.3);
       const Grid full = Mesher(settings).grid();
       const double error = 1.0 - volume(full) / (std::numbers::pi * 1e-4 * 0.06);

@@ -328,7 +328,8 @@ TEST(ShellElements, PointValuesAreInterpolated) {
 
 TEST(ShellElements, RodsAreRefused) {
   Settings settings;
-  settings.mesh = RodMesh{2, Vec3::Zero(), 0.1, 0.0, 1.0, 4, 8};
+  settings.mesh =
+      RodMesh{.axis = 2, .center = Vec3::Zero(), .radius = 0.1, .low = 0.0, .high = 1.0, .cells_radial = 4, .cells_along = 8};
   settings.material = elastic(1, 1, 0.3);
   settings.element = ElementKind::shell;
   try {

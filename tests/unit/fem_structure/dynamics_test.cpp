@@ -75,7 +75,15 @@ TEST(Dynamics, BarThatBeginsToHang) {
 
 Settings thin_ring(const materials::Solid& material, double radius, double thickness) {
   Settings settings;
-  settings.mesh = TubeMesh{2, Vec3::Zero(), radius - 0.5 * thickness, radius + 0.5 * thickness, 0.0, thickness, 2, 96, 1};
+  settings.mesh = TubeMesh{.axis = 2,
+                           .center = Vec3::Zero(),
+                           .inner_radius = radius - 0.5 * thickness,
+                           .outer_radius = radius + 0.5 * thickness,
+                           .low = 0.0,
+                           .high = thickness,
+                           .cells_through = 2,
+                           .cells_around = 96,
+                           .cells_along = 1};
   settings.material = material;
   settings.symmetry_axes = {0, 1};
   return settings;

@@ -15,7 +15,15 @@ namespace {
 double bore_at(double share) {
   const double a = 0.1, b = 0.2, young = 200e9, yield = 200e6;
   Settings settings;
-  settings.mesh = TubeMesh{2, Vec3::Zero(), a, b, 0.0, 0.0125, 8, 48, 1};
+  settings.mesh = TubeMesh{.axis = 2,
+                           .center = Vec3::Zero(),
+                           .inner_radius = a,
+                           .outer_radius = b,
+                           .low = 0.0,
+                           .high = 0.0125,
+                           .cells_through = 8,
+                           .cells_around = 48,
+                           .cells_along = 1};
   settings.material = hardening(7800, young, 0.3, yield, 0.0);
   settings.symmetry_axes = {0, 1};
   settings.supports = {{"low", {false, false, true}}, {"high", {false, false, true}}};
@@ -41,11 +49,12 @@ TEST(Plasticity, TaylorBarOfArmcoIron) {
   iron.name = "Armco iron";
   iron.shear_modulus = 80e9;
   iron.pressure = materials::LinearPressure{164e9};
-  iron.flow = materials::JohnsonCook{175e6, 380e6, 0.32, 0.06, 0.55, 1811.0};
+  iron.flow = materials::JohnsonCook{.A = 175e6, .B = 380e6, .n = 0.32, .C = 0.06, .m = 0.55, .T_melt = 1811.0};
   iron.heat_capacity = 452.0;
   const double length = 25.4e-3, radius = 3.8e-3;
   Settings settings;
-  settings.mesh = RodMesh{2, Vec3::Zero(), radius, 0.0, length, 4, 32};
+  settings.mesh = RodMesh{
+      .axis = 2, .center = Vec3::Zero(), .radius = radius, .low = 0.0, .high = length, .cells_radial = 4, .cells_along = 32};
   settings.material = iron;
   settings.symmetry_axes = {0, 1};
   settings.supports = {{"low", {false, false, true}}};

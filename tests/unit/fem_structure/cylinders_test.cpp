@@ -35,7 +35,15 @@ struct WallErrors {
 WallErrors thick_wall(int through, double c) {
   const ThickWall exact;
   Settings settings;
-  settings.mesh = TubeMesh{2, Vec3::Zero(), exact.a, exact.b, 0.0, 0.1 / through, through, 8 * through, 1};
+  settings.mesh = TubeMesh{.axis = 2,
+                           .center = Vec3::Zero(),
+                           .inner_radius = exact.a,
+                           .outer_radius = exact.b,
+                           .low = 0.0,
+                           .high = 0.1 / through,
+                           .cells_through = through,
+                           .cells_around = 8 * through,
+                           .cells_along = 1};
   settings.material = hardening(7800, exact.young, exact.poisson, exact.yield, 0.0);
   settings.symmetry_axes = {0, 1};
   settings.supports = {{"low", {false, false, true}}, {"high", {false, false, true}}};
@@ -158,15 +166,21 @@ constexpr double mean_radius = 0.05, wall = 0.001, ring_end = 150e-6, peak = 60e
 
 materials::Solid ring_metal() {
   materials::Solid metal = elastic(2700, 71e9, 0.33);
-  metal.flow = materials::JohnsonCook{167e6, 596e6, 0.551, 0.001, 1.0, 893.0};
+  metal.flow = materials::JohnsonCook{.A = 167e6, .B = 596e6, .n = 0.551, .C = 0.001, .m = 1.0, .T_melt = 893.0};
   return metal;
 }
 
 RingResult ring_of_elements(ElementKind kind, int around) {
   Settings settings;
-  settings.mesh = TubeMesh{2,   Vec3::Zero(), mean_radius - 0.5 * wall,           mean_radius + 0.5 * wall,
-                           0.0, wall,         kind == ElementKind::shell ? 1 : 2, around,
-                           1};
+  settings.mesh = TubeMesh{.axis = 2,
+                           .center = Vec3::Zero(),
+                           .inner_radius = mean_radius - 0.5 * wall,
+                           .outer_radius = mean_radius + 0.5 * wall,
+                           .low = 0.0,
+                           .high = wall,
+                           .cells_through = kind == ElementKind::shell ? 1 : 2,
+                           .cells_around = around,
+                           .cells_along = 1};
   settings.element = kind;
   settings.material = ring_metal();
   settings.symmetry_axes = {0, 1};

@@ -25,7 +25,15 @@ void expect_parts(const std::string& text, std::initializer_list<const char*> pa
 Settings good_tube() {
   Settings settings;
   settings.name = "pipe";
-  settings.mesh = TubeMesh{2, Vec3::Zero(), 0.04, 0.05, -0.1, 0.1, 2, 16, 4};
+  settings.mesh = TubeMesh{.axis = 2,
+                           .center = Vec3::Zero(),
+                           .inner_radius = 0.04,
+                           .outer_radius = 0.05,
+                           .low = -0.1,
+                           .high = 0.1,
+                           .cells_through = 2,
+                           .cells_around = 16,
+                           .cells_along = 4};
   settings.material = elastic(2700, 71e9, 0.33);
   return settings;
 }
@@ -75,7 +83,8 @@ TEST(Errors, UnknownFacesListTheKnownOnes) {
 
 TEST(Errors, RodAndPlate) {
   Settings settings = good_tube();
-  settings.mesh = RodMesh{2, Vec3::Zero(), -0.01, 0.0, 1.0, 1, 4};
+  settings.mesh =
+      RodMesh{.axis = 2, .center = Vec3::Zero(), .radius = -0.01, .low = 0.0, .high = 1.0, .cells_radial = 1, .cells_along = 4};
   expect_parts(refusal(settings), {"radius = -0.01", "cells_radial = 1"});
   settings.mesh = PlateMesh{Vec3(0, 0, 0), Vec3(1, -1, 1), {1, 1, 0}};
   expect_parts(refusal(settings), {"along y", "-1", "cells along z = 0"});

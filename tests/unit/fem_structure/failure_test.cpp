@@ -51,8 +51,8 @@ TEST(MaterialPoint, ACellInUniformMotionFollowsThePointToRoundOff) {
   const FlowStress laws[] = {Elastic{},
                              LinearHardening{300e6, 1e9},
                              PowerHardening{200e6, 500e6, 0.4},
-                             JohnsonCook{175e6, 380e6, 0.32, 0.06, 0.55, 1811.0},
-                             CowperSymonds{250e6, 800e6, 40.0, 5.0},
+                             JohnsonCook{.A = 175e6, .B = 380e6, .n = 0.32, .C = 0.06, .m = 0.55, .T_melt = 1811.0},
+                             CowperSymonds{.Y0 = 250e6, .H = 800e6, .D = 40.0, .q = 5.0},
                              ZerilliArmstrong{.C0 = 65e6, .C2 = 890e6, .C3 = 0.0028, .C4 = 0.000115}};
   for (const FlowStress& flow : laws) {
     Solid solid = metal(flow);
