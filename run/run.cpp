@@ -113,7 +113,7 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   if (options.verbosity >= 0)
     for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 
-  // Now the scene is known to be sound: nothing was written for one that is not.
+  // The solvers have accepted the scene: nothing was written for one that they refuse.
   begin_folder(options.output, options.scene_text, resolved);
   Observer observer(scene, simulation, options.output);
   Progress progress(simulation.time(), scene.end_time, options.verbosity);

@@ -59,7 +59,7 @@ void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& 
   std::fill(sums_.begin(), sums_.end(), SumRow{});
   if (updated_) run(loops_.forces, in);
   if (contact) run(loops_.contact_forces, input(contact_views_));
-  hand_back(particles);
+  write_back(particles);
 }
 
 /// The contact pressure of the present overlap. Bodies that touch at the start do so without pressure.
@@ -208,7 +208,7 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
     }
 }
 
-void SolidPairs::hand_back(SolidParticles& p) const {
+void SolidPairs::write_back(SolidParticles& p) const {
   const Numerics& numerics = settings_.numerics;
   for (const Range& range : ranges_)
 #pragma omp parallel for schedule(static)

@@ -43,7 +43,7 @@ class SolidPairs {
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
   void find_contact(SolidParticles& particles, bool started);
-  void hand_back(SolidParticles& particles) const;
+  void write_back(SolidParticles& particles) const;
 
   const Settings& settings_;
   const sph::Settings& around_;
