@@ -26,12 +26,10 @@ double schmidt_pressure_scale(const SchmidtMixture& mixture, double rho_liquid);
 /// not check them.
 ///
 /// Below saturation the Schmidt model gives, with falling density,
-///   mixture   eq. 32 with void fraction 0 at the Tait density of p_sat: pressure is continuous there, and
-///   its slope
-///             is the squared mixture sound speed of eq. 31 everywhere;
-///   floor     p_floor, from the density at which the mixture reaches it. (Where the constants are such that
-///   pure
-///             vapour is still above p_floor, the pressure stays at that of pure vapour instead.)
+///   mixture   eq. 32 with void fraction 0 at the Tait density of p_sat: pressure is continuous there, and its slope is
+///             the squared mixture sound speed of eq. 31 everywhere;
+///   floor     p_floor, from the density at which the mixture reaches it. (Where the constants are such that pure vapour is
+///             still above p_floor, the pressure stays at that of pure vapour instead.)
 /// Sound speed is continuous too, but for the step from Tait's own value at p_sat (1538.2 m/s) to
 /// `liquid_sound` (1538). On the floor the slope of the pressure is zero; the sound speed returned there is
 /// still the mixture's, eq. 31 at the void fraction (1.3 m/s at one half, `vapour_sound` in pure vapour),

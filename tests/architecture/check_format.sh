@@ -14,4 +14,7 @@ if ! "$tool" --dry-run -Werror "${files[@]}"; then
   echo "mend it: clang-format -i \$(git ls-files '*.cpp' '*.hpp')"
   exit 1
 fi
+if awk 'length > 130 && /\/\// { print FILENAME ":" FNR ": a comment beyond column 130"; found = 1 } END { exit !found }' "${files[@]}"; then
+  exit 1
+fi
 echo "${#files[@]} files are laid out as .clang-format says"
