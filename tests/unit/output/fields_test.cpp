@@ -174,7 +174,10 @@ struct TwoCells {
       for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) points.emplace_back(x, y, z);
   }
   StructureSnapshot snapshot() const {
-    return {points, cells, {{"displacement", 3, as_components(points)}}, {{"plastic_strain", 1, strain}}};
+    return {.positions = points,
+            .cells = cells,
+            .point_data = {{"displacement", 3, as_components(points)}},
+            .cell_data = {{"plastic_strain", 1, strain}}};
   }
 };
 

@@ -42,7 +42,7 @@ void add_walls(Sample& sample, double slip, bool moving) {
     }
     n.normalize();
     const double volume = std::pow(0.1, sample.dimension) * dice.between(0.5, 1.5);
-    sample.walls.push_back({{v[0], v[1], v[2], n[0], n[1], n[2], volume, slip}, x[0], x[1], x[2]});
+    sample.walls.push_back(wall_particle(x, v, n, volume, slip));
   }
 }
 

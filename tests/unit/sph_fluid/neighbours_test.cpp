@@ -35,12 +35,12 @@ double tolerance_of(KernelName kernel) { return kernel == KernelName::gaussian ?
 
 struct Case {
   std::string name;
-  int dimension;
-  KernelName kernel;
-  bool lattice;  // else scattered
-  bool bodies;   // a second body of other spacing with variable h, a third of other constant h
-  std::array<bool, 3> mirror;
-  int wall;  // 0: none, 1: free slip, 2: no slip, 3: both, moving
+  int dimension = 3;
+  KernelName kernel = KernelName::wendland_c2;
+  bool lattice = false;  // else scattered
+  bool bodies = false;   // a second body of other spacing with variable h, a third of other constant h
+  std::array<bool, 3> mirror{};
+  int wall = 0;  // 0: none, 1: free slip, 2: no slip, 3: both, moving
   SchemeName scheme = SchemeName::monaghan;
 };
 
@@ -95,7 +95,7 @@ Sample make(const Case& c) {
       n.normalize();
       const double slip = c.wall == 1 ? 1.0 : c.wall == 2 ? 0.0 : double(k % 2);
       const double volume = std::pow(dx, c.dimension) * dice.between(0.5, 1.5);
-      sample.walls.push_back({{v[0], v[1], v[2], n[0], n[1], n[2], volume, slip}, x[0], x[1], x[2]});
+      sample.walls.push_back(wall_particle(x, v, n, volume, slip));
     }
   return sample;
 }
@@ -106,15 +106,25 @@ std::vector<Case> cases() {
     const std::string name = kernel == KernelName::gaussian ? "gaussian" : "wendland";
     for (int d = 1; d <= 3; ++d) {
       const std::string in = name + "_" + std::to_string(d) + "d_";
-      all.push_back({in + "lattice", d, kernel, true, false, {}, 0});
-      all.push_back({in + "scattered", d, kernel, false, false, {}, 0});
-      all.push_back({in + "bodies", d, kernel, false, true, {}, 0});
-      all.push_back({in + "slip_wall", d, kernel, true, false, {}, 1});
-      all.push_back({in + "no_slip_wall", d, kernel, true, false, {}, 2});
-      all.push_back({in + "everything", d, kernel, false, true, {true, d > 1, d > 2}, 3});
+      all.push_back({.name = in + "lattice", .dimension = d, .kernel = kernel, .lattice = true});
+      all.push_back({.name = in + "scattered", .dimension = d, .kernel = kernel});
+      all.push_back({.name = in + "bodies", .dimension = d, .kernel = kernel, .bodies = true});
+      all.push_back({.name = in + "slip_wall", .dimension = d, .kernel = kernel, .lattice = true, .wall = 1});
+      all.push_back({.name = in + "no_slip_wall", .dimension = d, .kernel = kernel, .lattice = true, .wall = 2});
+      all.push_back({.name = in + "everything",
+                     .dimension = d,
+                     .kernel = kernel,
+                     .bodies = true,
+                     .mirror = {true, d > 1, d > 2},
+                     .wall = 3});
     }
-    all.push_back({name + "_3d_plane_y", 3, kernel, false, true, {false, true, false}, 0});
-    all.push_back({name + "_3d_planes_xz", 3, kernel, true, true, {true, false, true}, 2});
+    all.push_back({.name = name + "_3d_plane_y", .kernel = kernel, .bodies = true, .mirror = {false, true, false}});
+    all.push_back({.name = name + "_3d_planes_xz",
+                   .kernel = kernel,
+                   .lattice = true,
+                   .bodies = true,
+                   .mirror = {true, false, true},
+                   .wall = 2});
   }
   // The loop that serves any kernel.
   for (const KernelName kernel : all_kernels) {
@@ -126,7 +136,13 @@ std::vector<Case> cases() {
                                                                           : "switch_") +
                              name;
       for (int d = 1; d <= 3; ++d)
-        all.push_back({in + "_any_" + std::to_string(d) + "d", d, kernel, false, true, {true, d > 1, d > 2}, 3, scheme});
+        all.push_back({.name = in + "_any_" + std::to_string(d) + "d",
+                       .dimension = d,
+                       .kernel = kernel,
+                       .bodies = true,
+                       .mirror = {true, d > 1, d > 2},
+                       .wall = 3,
+                       .scheme = scheme});
     }
   }
   return all;
@@ -186,11 +202,10 @@ TEST(PairLoops, ThreadsDoNotChangeASum) {
                                                 1.5 * dx, dx, 1000, 1e8, 1500));
       sample.sets.push_back(set);
     }
-    for (int k = 0; k < 300; ++k)
-      sample.walls.push_back({{1, 2, 3, 0, 0, 1, dx * dx * dx, double(k % 2)},
-                              dice.between(0, 0.5),
-                              dice.between(0, 0.9),
-                              dice.between(0.78, 0.84)});
+    for (int k = 0; k < 300; ++k) {
+      const double x = dice.between(0, 0.5), y = dice.between(0, 0.9), z = dice.between(0.78, 0.84);
+      sample.walls.push_back(wall_particle(Vec3(x, y, z), Vec3(1, 2, 3), Vec3(0, 0, 1), dx * dx * dx, double(k % 2)));
+    }
     sample.threads = 1;
     const Result one = run(sample);
     for (const int threads : {2, 3, 7}) {

@@ -43,6 +43,15 @@ struct WallParticle : WallRow {
 };
 
 /// Particles of one body.
+inline WallParticle wall_particle(const Vec3& x, const Vec3& v, const Vec3& n, double volume, double slip) {
+  WallParticle wall;
+  wall.vx = v[0], wall.vy = v[1], wall.vz = v[2];
+  wall.nx = n[0], wall.ny = n[1], wall.nz = n[2];
+  wall.volume = volume;
+  wall.slip = slip;
+  wall.x = x[0], wall.y = x[1], wall.z = x[2];
+  return wall;
+}
 struct Set {
   std::vector<Particle> particles;
   bool variable_h = false;

@@ -20,7 +20,11 @@ Series ramp(double slope, double end, double step) {
 
 /// Displacements of 10, 11 and 8 m/s over 100 us, the last of 50 us only.
 Quantity displacement() {
-  return {"wall", "radial displacement", "m", {ramp(10, 100e-6, 1e-6), ramp(11, 100e-6, 3e-6), ramp(8, 50e-6, 7e-6)}, {}};
+  return {.probe = "wall",
+          .name = "radial displacement",
+          .unit = "m",
+          .runs = {ramp(10, 100e-6, 1e-6), ramp(11, 100e-6, 3e-6), ramp(8, 50e-6, 7e-6)},
+          .reference = {}};
 }
 
 TEST(DifferenceNorms, OfTwoRampsOnDifferentTimes) {
