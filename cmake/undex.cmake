@@ -9,11 +9,23 @@ if(UNDEX_SANITIZE)
   target_link_options(undex_rules INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Threads everywhere: precompiled headers serve only files that are compiled with the same options.
+target_link_libraries(undex_rules INTERFACE OpenMP::OpenMP_CXX)
+
+# What most files include is parsed once; for tests once more, with GoogleTest. (Every file names what it needs all the same: the
+# preset "checked" builds without.)
+add_library(undex_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
+target_link_libraries(undex_headers PRIVATE undex_rules Eigen3::Eigen)
+set(UNDEX_HEADERS <algorithm> <array> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <limits> <map> <memory>
+  <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <variant> <vector> ${PROJECT_SOURCE_DIR}/core/vector.hpp)
+target_precompile_headers(undex_headers PRIVATE ${UNDEX_HEADERS})
+
 # undex_module(name [PUBLIC libs...] [PRIVATE libs...] SOURCES files...): a library of the project.
 function(undex_module name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;SOURCES" ${ARGN})
   add_library(undex_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(undex_${name} PUBLIC undex_rules ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_precompile_headers(undex_${name} REUSE_FROM undex_headers)
 endfunction()
 
 # undex_test(name LIBS libs... SOURCES files...): one GoogleTest executable, one ctest entry per test case.
@@ -21,6 +33,7 @@ function(undex_test name)
   cmake_parse_arguments(ARG "" "" "LIBS;SOURCES;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE undex_rules ${ARG_LIBS} GTest::gtest_main)
+  target_precompile_headers(test_${name} REUSE_FROM undex_test_headers)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
 endfunction()
@@ -49,7 +62,7 @@ function(undex_pair_loops name)
   foreach(level v2 v3 v4)
     set(target undex_${name}_loops_${level})
     add_library(${target} OBJECT ${ARG_SOURCES})
-    target_link_libraries(${target} PRIVATE undex_rules OpenMP::OpenMP_CXX)
+    target_link_libraries(${target} PRIVATE undex_rules)
     target_compile_options(${target} PRIVATE -march=x86-64-${level} -ffinite-math-only -fno-signed-zeros -fno-trapping-math
       -Wno-psabi -Wno-maybe-uninitialized -Wno-uninitialized)
     if(level STREQUAL v4)
