@@ -63,7 +63,7 @@ std::string other_programs(const StudyTable& table, const std::string& program) 
 std::string left_over_text(const std::vector<std::filesystem::path>& folders) {
   if (folders.empty()) return "";
   std::string text = "note: " + count_of(folders.size(), "folder") + " of runs that the study no longer has:";
-  for (std::size_t i = 0; i < std::min<std::size_t>(folders.size(), 3); ++i) text += " " + folders[i].string();
+  for (std::size_t i = 0; i < std::min<std::size_t>(folders.size(), 3); ++i) text.append(" ").append(folders[i].string());
   return text + (folders.size() > 3 ? " ...\n" : "\n");
 }
 

@@ -134,7 +134,7 @@ void StudyWork::start(std::size_t run) {
   }
   const auto arguments = run_arguments(study_.runs[run], job.repetition ? repetition_folder(run) : state.folder);
   std::string command = "undex";
-  for (const std::string& argument : arguments) command += " " + quoted_for_shell(argument);
+  for (const std::string& argument : arguments) command.append(" ").append(quoted_for_shell(argument));
   const fs::path log = state.folder / (job.repetition ? "repetition.txt" : "log.txt");
   output::write_text_atomically(log, command + "\n");
   job.child = std::make_unique<ChildProcess>(arguments, log);
