@@ -96,6 +96,7 @@ int run_scene(const RunArguments& arguments) {
   result.record.metrics = verdict.metrics;
   output::write_summary(options.output / "summary.json", result.record);
   if (options.verbosity >= 0) std::printf("%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str());
+  if (!result.not_saved.empty()) throw FileError(result.not_saved);  // the record is kept all the same
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
   return result.signal == 0 ? exit_done : 128 + result.signal;
 }

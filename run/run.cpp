@@ -135,7 +135,11 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   result.record.message = end.message;
   result.record.warnings = warnings;
   result.signal = end.signal;
-  output::write_evidence(options.output / "evidence.h5", result.evidence);
+  try {
+    output::write_evidence(options.output / "evidence.h5", result.evidence);
+  } catch (const FileError& error) {
+    result.not_saved = error.what();
+  }
   return result;
 }
 

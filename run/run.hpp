@@ -25,6 +25,7 @@ struct Result {
   output::Evidence evidence;  ///< also in evidence.h5
   output::RunRecord record;   ///< without metrics; its status is "done", "interrupted" (a signal) or "stopped" (the numerics)
   int signal = 0;             ///< that interrupted it: SIGINT, SIGTERM
+  std::string not_saved;      ///< why evidence.h5 could not be written; empty: it was
 };
 
 /// Computes the scene and leaves everything in the folder but summary.json, which waits for the metrics. What was computed
