@@ -92,9 +92,9 @@ int run_scene(const RunArguments& arguments) {
 
   run::Result result = run::compute(scene, options);
   const judge::Verdict verdict = judge.verdict(result.evidence);
-  judge::write_tables(options.output, verdict);
   result.record.metrics = verdict.metrics;
-  output::write_summary(options.output / "summary.json", result.record);
+  output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
+  judge::write_tables(options.output, verdict);
   if (options.verbosity >= 0) std::printf("%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str());
   if (!result.not_saved.empty()) throw FileError(result.not_saved);  // the record is kept all the same
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
