@@ -38,7 +38,8 @@ using WallIndex = std::variant<sph::MirrorIndex, sph::LinedIndex>;
 
 class Coupler {
  public:
-  /// Lines the structure's wet surface with dummy particles and gives them to the fluid. Both must outlive the coupler.
+  /// Shows the fluid the structure's wet surface: as a mirror wall where it slips along it and its scheme mirrors, else as one
+  /// lined with dummy particles. Both must outlive the coupler.
   Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& settings);
 
   struct Window {
