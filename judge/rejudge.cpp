@@ -18,11 +18,17 @@ struct Judged {
   output::Evidence evidence;
 };
 
-/// The scene as the run has resolved it; a reference table is read as if the scene had named it.
+/// The scene as the run has resolved it; where its own reference is gone, a table that is given stands for it.
 scene::Scene scene_of(const fs::path& run, const fs::path& table) {
-  std::vector<scene::Override> overrides;
-  if (!table.empty()) overrides.push_back({"comparison.reference", scene::quoted(fs::absolute(table).string())});
-  return scene::read(run / "resolved.toml", comparison_kinds(), overrides);
+  const auto read = [&](const std::vector<scene::Override>& overrides) {
+    return scene::read(run / "resolved.toml", comparison_kinds(), overrides);
+  };
+  if (table.empty()) return read({});
+  try {
+    return read({});
+  } catch (const SceneError&) {
+    return read({{"comparison.reference", scene::quoted(fs::absolute(table).string())}});
+  }
 }
 
 /// What cannot be read was given wrongly: the user's mistake, like that of any other command on runs.
