@@ -189,14 +189,4 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
   return columns;
 }
 
-Series read_series(const std::filesystem::path& path, const std::string& column) {
-  std::string names;
-  for (HistoryColumn& found : read_history(path)) {
-    if (found.name.starts_with(column)) return std::move(found.series);
-    names += (names.empty() ? "" : ", ") + found.name;
-  }
-  throw FileError("cannot read " + path.string() + ": no column '" + column + "' in its header; it has " +
-                  (names.empty() ? "none after the time" : names));
-}
-
 }  // namespace undex::output

@@ -70,8 +70,4 @@ struct HistoryColumn {
 /// understood.
 std::vector<HistoryColumn> read_history(const std::filesystem::path& path);
 
-/// The column of a CSV history found by the beginning of its name; an empty name means the first after the time. Throws
-/// FileError as read_history, and when there is no such column.
-Series read_series(const std::filesystem::path& path, const std::string& column = "");
-
 }  // namespace undex::output

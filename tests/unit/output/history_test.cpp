@@ -37,7 +37,10 @@ TEST(History, IsReadBackAsSeries) {
   history.append({1e-6, 5.0, -3.0});
   history.append({2e-6, 6.0, -4.0});
   history.close();
-  const Series velocity = read_series(folder.path / "a.csv", "velocity_x");
+  const std::vector<HistoryColumn> columns = read_history(folder.path / "a.csv");
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns[1].name, "velocity_x");
+  const Series& velocity = columns[1].series;
   EXPECT_EQ(velocity.t, (std::vector<double>{1e-6, 2e-6}));
   EXPECT_EQ(velocity.y, (std::vector<double>{-3.0, -4.0}));
 }

@@ -62,11 +62,11 @@ TEST(Series, InvalidOnesAreRefused) {
 TEST(Series, ReadErrorsNameFileAndLine) {
   const TemporaryFolder folder;
   const auto path = folder.path / "a.csv";
-  EXPECT_NE(message_of<FileError>([&] { read_series(path); }).find("No such file"), std::string::npos);
+  EXPECT_NE(message_of<FileError>([&] { read_history(path); }).find("No such file"), std::string::npos);
   std::ofstream(path) << "# comment\ntime [s],pressure [Pa]\n0,1\nhello,2\n";
-  EXPECT_NE(message_of<FileError>([&] { read_series(path); }).find("a.csv:4"), std::string::npos);
-  std::ofstream(path) << "time [s],pressure [Pa]\n0,1\n";
-  EXPECT_NE(message_of<FileError>([&] { read_series(path, "velocity"); }).find("velocity"), std::string::npos);
+  EXPECT_NE(message_of<FileError>([&] { read_history(path); }).find("a.csv:4"), std::string::npos);
+  std::ofstream(path) << "# comment\n";
+  EXPECT_NE(message_of<FileError>([&] { read_history(path); }).find("a.csv: the file is empty"), std::string::npos);
 }
 
 }  // namespace
