@@ -138,6 +138,12 @@ template <class... Owner, class... Element, std::size_t... count>
 constexpr std::size_t listed(const std::tuple<ArrayOf<Owner, Element, count>...>&) {
   return (count + ... + 0);
 }
+/// Have all arrays of a list that role?
+template <class... Owner, class... Element, std::size_t... count>
+constexpr bool all_are(Role role, const std::tuple<ArrayOf<Owner, Element, count>...>& list) {
+  return std::apply([&](const auto&... array) { return ((array.role == role) && ...); }, list);
+}
+static_assert(all_are(Role::state, state_arrays), "an array of ParticleState is state");
 static_assert(sizeof(ParticleState) == listed(state_arrays) * sizeof(std::vector<double>), "state_arrays lacks an array");
 static_assert(sizeof(Particles) == 2 * sizeof(ParticleState) + listed(further_arrays) * sizeof(std::vector<double>),
               "further_arrays lacks an array");

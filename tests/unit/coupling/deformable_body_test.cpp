@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -125,6 +126,32 @@ TEST_P(AnyBody, WhatActsOnAPointActsOnItsCarriersAlike) {
     EXPECT_LT((sum - force).norm(), 1e-12);
     EXPECT_LT((torque - x.cross(force)).norm(), 1e-13);
   }
+}
+
+/// At a symmetry plane a point is also made of mirrored particles: whatever their velocities are, what is given to the point has
+/// the power that its particles receive.
+TEST(HalfABody, ScatteringIsTheAdjointOfReading) {
+  solid::Body block;
+  block.name = "block";
+  block.shape.base = Box{Vec3(-0.03, 0, 0), high};
+  block.material = elastic();
+  sph::Settings settings;
+  settings.lattice.spacing = 0.005;
+  settings.symmetry.axis[0] = true;
+  settings.numerics.threads = 1;
+  solid::Solids solids(solid::Settings{.bodies = {block}, .numerics = {}, .planes = {}}, settings);
+  std::vector<Vec3> impulse;
+  for (std::size_t i = 0; i < solids.positions().size(); ++i)
+    impulse.push_back(1e-3 * Vec3(std::sin(1.0 + 3.0 * i), std::cos(2.0 * i), std::sin(0.7 * i)));
+  solids.kick(impulse);
+  const BodyPoint point = solids.locate(Vec3(0.001, 0.008, 0.013));
+  EXPECT_TRUE(std::any_of(point.motion.begin(), point.motion.end(), [](const auto& share) { return share.image != 0; }));
+  const Vec3 force(3, -2, 1);
+  std::vector<Vec3> received(impulse.size(), Vec3::Zero());
+  scatter_to_carriers(point, force, received);
+  double power = 0;
+  for (std::size_t i = 0; i < received.size(); ++i) power += received[i].dot(solids.velocities()[i]);
+  EXPECT_NEAR(power, force.dot(solids.read(point).velocity), 1e-12 * std::abs(power));
 }
 
 TEST_P(AnyBody, SurfacesBeyondReachAreNotFollowed) { EXPECT_FALSE(body_->follow_surface(Vec3(0.01, 0.01, -0.1), 0.01)); }

@@ -38,6 +38,10 @@ TEST(Particles, SortingTakesAllArraysAlong) {
     if (role == Role::scratch) return;
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(filling(array, i), wanted[i]) << int(role);
   });
+  // Whatever roles the list gives them, these outlast an evaluation.
+  for (const int found : {filling(p.mass, 1), filling(p.id, 1), filling(p.rate, 1), filling(p.earlier, 1), filling(p.other, 1),
+                          filling(p.place, 1)})
+    EXPECT_EQ(found, wanted[1]);
 }
 
 TEST(Particles, AStepThatIsNotTakenGivesTheStateBack) {
