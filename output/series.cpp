@@ -146,7 +146,7 @@ Norms difference_norms(const Series& series, const Series& base, double a, doubl
   return {sum / (b - a) / peak, std::sqrt(squares / (b - a)) / peak};
 }
 
-std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
+std::vector<HistoryColumn> read_history(const std::filesystem::path& path, bool may_be_cut) {
   std::ifstream file(path);
   if (!file) throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the file's path");
   std::vector<HistoryColumn> columns;
@@ -154,6 +154,7 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
   long line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
+    if (may_be_cut && file.eof()) break;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line[0] == '#') continue;
     std::vector<std::string> cells;

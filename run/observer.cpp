@@ -63,15 +63,24 @@ void Observer::observe(const Simulation& simulation) {
     const double interval = scene_.output.history_interval;
     next_history_ = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
   }
-  if (now >= next_snapshot_) {
+  // Rows wait for a few steps, and never for one that takes long: they are on disk within a second of being computed.
+  constexpr std::chrono::milliseconds most{50};
+  const bool snapshot = now >= next_snapshot_;
+  if (snapshot || std::chrono::steady_clock::now() - last_flush_ > most) flush();
+  if (snapshot) {
     snapshots_.write();
     next_snapshot_ = snapshots_.next_after(simulation.time());
   }
 }
 
-output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) {
+void Observer::flush() {
   probes_.flush();
   energy_.flush();
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) {
+  flush();
   output::Evidence evidence{.time = simulation.time(), .probes = probes_.samples(), .energy = energy_.samples(), .fields = {}};
   for (const std::string& name : last_fields) evidence.fields[name] = last_field(simulation, name);
   return evidence;

@@ -2,6 +2,7 @@
 // end all of it in full precision, as evidence.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ class Observer {
   void begin(const Simulation& simulation);
   /// A state after a step.
   void observe(const Simulation& simulation);
+  /// Puts every row so far on disk, those of all files together.
+  void flush();
   /// Time [s] beyond which no step should go.
   double next_snapshot() const { return next_snapshot_; }
   /// See Snapshots.
@@ -50,6 +53,7 @@ class Observer {
   EnergyHistory energy_;
   Snapshots snapshots_;
   double next_history_ = 0, next_snapshot_ = 0;
+  std::chrono::steady_clock::time_point last_flush_;
 };
 
 }  // namespace undex::run
