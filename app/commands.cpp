@@ -12,6 +12,7 @@
 #include "judge/judge.hpp"
 #include "materials/library.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "run/describe.hpp"
 #include "run/run.hpp"
 #include "scene/key_tables.hpp"
@@ -88,7 +89,8 @@ int run_scene(const RunArguments& arguments) {
   options.scene_text = whole_text(scene.file);
   options.program = version_line();
   options.last_fields = judge.last_fields();
-  output::require_unused_folder(options.output, arguments.force);  // made when the scene is known to be sound
+  const output::FolderLock lock(options.output, "undex run");
+  output::require_unused_folder(options.output, arguments.force);
 
   run::Result result = run::compute(scene, options);
   const judge::Verdict verdict = judge.verdict(result.evidence);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "output/folder_lock.hpp"
 
 namespace undex::output {
 
@@ -60,7 +61,7 @@ void put_in_place(const std::filesystem::path& temporary, const std::filesystem:
   }
 }
 
-void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
+std::filesystem::path write_temporary(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path temporary = temporary_name(path);
   const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw_file_error("write", path, errno);
@@ -76,20 +77,35 @@ void write_text_atomically(const std::filesystem::path& path, const std::string&
     unlink(temporary.c_str());
     throw_file_error("write", path, error);
   }
-  put_in_place(temporary, path);
+  return temporary;
 }
 
-void require_unused_folder(const std::filesystem::path& folder, bool force) {
-  namespace fs = std::filesystem;
+void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
+  put_in_place(write_temporary(path, text), path);
+}
+
+namespace {
+
+void require_folder_if_any(const std::filesystem::path& folder) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
     throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
-  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
-    throw UsageError("the output folder " + folder.string() +
-                     " is not empty; name another one with -o, or write over it with --force");
+}
+
+}  // namespace
+
+void require_unused_folder(const std::filesystem::path& folder, bool force) {
+  require_folder_if_any(folder);
+  if (force) return;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().filename() != folder_lock_name)
+      throw UsageError("the output folder " + folder.string() +
+                       " is not empty; name another one with -o, or write over it with --force");
 }
 
 void make_folder(const std::filesystem::path& folder) {
+  require_folder_if_any(folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");

@@ -17,16 +17,19 @@ std::optional<std::string> text_of(const std::filesystem::path& path);
 /// part. Throws FileError.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// Renames a finished temporary file to its place. Throws FileError.
+/// The first half of it: the text is on disk under temporary_name(path), which is returned, and `path` is as it was.
+std::filesystem::path write_temporary(const std::filesystem::path& path, const std::string& text);
+
+/// The second half: renames a finished temporary file to its place. Throws FileError.
 void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
 /// The name under which `path` is written until it is finished (same folder, so that the rename is atomic).
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
-/// Refuses (UsageError) a folder in which something is already, unless `force`, and a path that is something else.
+/// Refuses (UsageError) a folder in which something but its lock is already, unless `force`, and a path that is something else.
 void require_unused_folder(const std::filesystem::path& folder, bool force);
 
-/// Makes the folder and those above it. Throws FileError.
+/// Makes the folder and those above it. Throws FileError, UsageError where the path is something else.
 void make_folder(const std::filesystem::path& folder);
 
 /// Throws FileError unless the file system that holds `path` has room for `bytes` more: a disk that fills in the middle

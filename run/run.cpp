@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 
 #include "core/errors.hpp"
-#include "output/files.hpp"
+#include "core/signals.hpp"
+#include "output/run_folder.hpp"
 #include "run/observer.hpp"
 #include "run/plane_wave_start.hpp"
 #include "run/progress.hpp"
@@ -22,15 +22,6 @@ namespace {
 
 volatile std::sig_atomic_t signal_received = 0;
 void remember_signal(int number) { signal_received = number; }
-
-/// SIGINT and SIGTERM end the run at the next step instead of at once; a second one kills.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = remember_signal;
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 /// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second
 /// time: what goes off within a step is caught there, and named more closely.
@@ -56,14 +47,6 @@ void begin(scene::Scene& scene, int verbosity) {
   if (!report.empty() && verbosity >= 0) std::printf("%s\n", report.c_str());
 }
 
-/// The folder with the scene as it was given and as it was read. An older run's results must not pass for this one's.
-void begin_folder(const std::filesystem::path& folder, const std::string& given, const std::string& resolved) {
-  output::make_folder(folder);
-  output::write_text_atomically(folder / "scene.toml", given);
-  output::write_text_atomically(folder / "resolved.toml", resolved);
-  for (const char* name : {"summary.json", "evidence.h5"}) std::filesystem::remove(folder / name);
-}
-
 struct End {
   std::string status, message;
   int signal = 0;
@@ -81,7 +64,7 @@ End advance(const scene::Scene& scene, Simulation& simulation, Observer& observe
     expect_energy(simulation, energy_off);
     progress.report(simulation);
     if (signal_received != 0)
-      return {.status = "interrupted", .message = signal_received == SIGINT ? "SIGINT" : "SIGTERM", .signal = signal_received};
+      return {.status = "interrupted", .message = name_of_signal(signal_received), .signal = signal_received};
   }
   return {.status = "done", .message = ""};
 }
@@ -113,11 +96,12 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   if (options.verbosity >= 0)
     for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 
+  // From here on a signal ends the run after the present step.
+  catch_end_signals(remember_signal, /*second_kills=*/true);
   // The solvers have accepted the scene: nothing was written for one that they refuse.
-  begin_folder(options.output, options.scene_text, resolved);
+  output::begin_run_folder(options.output, options.scene_text, resolved);
   Observer observer(scene, simulation, options.output);
   Progress progress(simulation.time(), scene.end_time, options.verbosity);
-  catch_signals();
   End end;
   bool step_done = true;
   try {

@@ -12,7 +12,7 @@
 namespace undex::run {
 
 struct RunOptions {
-  std::filesystem::path output;          ///< made if it does not exist
+  std::filesystem::path output;          ///< there, and held by an output::FolderLock
   int threads = 0;                       ///< 0: the scene's choice, or all the machine has
   int verbosity = 0;                     ///< -1 quiet, 0 normal, 1 every step
   std::string scene_text;                ///< the scene file as the user wrote it
@@ -24,7 +24,7 @@ struct RunOptions {
 struct Result {
   output::Evidence evidence;  ///< also in evidence.h5
   output::RunRecord record;   ///< without metrics; its status is "done", "interrupted" (a signal) or "stopped" (the numerics)
-  int signal = 0;             ///< that interrupted it: SIGINT, SIGTERM
+  int signal = 0;             ///< that interrupted it, of end_signals
   std::string not_saved;      ///< why evidence.h5 could not be written; empty: it was
 };
 

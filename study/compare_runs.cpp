@@ -11,6 +11,7 @@
 #include "judge/metric_names.hpp"
 #include "judge/reference.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 #include "study/compared.hpp"
 #include "study/compared_blocks.hpp"
@@ -265,7 +266,7 @@ void compare_runs(const CompareOptions& options) {
   blocks.push_back(norms);
   if (reference.table)
     for (ComparedBlock& block : reference_blocks(runs, *reference.table)) blocks.push_back(std::move(block));
-  output::make_folder(options.output);
+  const output::FolderLock lock(options.output, "undex compare");
   output::write_text_atomically(options.output / "comparison.csv",
                                 csv_header(labels) + settings_csv(differing) + blocks_csv(blocks));
   output::write_text_atomically(options.output / "curves.csv", curves_csv(all, labels, reference.table));

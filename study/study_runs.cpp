@@ -7,6 +7,7 @@
 #include "study/run_settings.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "study/run_labels.hpp"
 
 namespace undex::study {
@@ -120,6 +121,7 @@ void clear_run_folder(const fs::path& folder) {
     if (!has("log.txt") && !has("resolved.toml") && !fs::is_empty(folder, error))
       throw UsageError(folder.string() +
                        " is in the way: it is no run's folder, and a run of the study needs its name; move it away");
+    const output::FolderLock not_in_use(folder, "undex study");
     fs::remove_all(folder, error);
     if (error)
       throw FileError(folder.string() + ": cannot be cleared: " + error.message() +

@@ -3,12 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 
 #include "core/errors.hpp"
+#include "core/signals.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 
 namespace undex::study {
@@ -20,14 +21,6 @@ volatile std::sig_atomic_t first_signal = 0, signals = 0;
 void count_signal(int number) {
   if (signals == 0) first_signal = number;
   signals = signals + 1;
-}
-
-/// SIGINT and SIGTERM end the runs under way, which then record what they have; a second one kills them.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = count_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
 }
 
 std::string quoted_for_shell(const std::string& text) {
@@ -88,6 +81,7 @@ void StudyWork::rename_folders() {
   for (std::size_t r = 0; r < states_.size(); ++r) {
     const fs::path own = folder_ / "runs" / study_.runs[r].name;
     if (states_[r].folder == own) continue;
+    { const output::FolderLock not_in_use(states_[r].folder, "undex study"); }
     std::error_code error;
     fs::rename(states_[r].folder, own, error);
     if (error) throw FileError(own.string() + ": " + states_[r].folder.string() + " cannot be renamed to it: " + error.message());
@@ -103,7 +97,7 @@ int StudyWork::compute(std::vector<std::size_t> runs, int jobs) {
   std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return rows_[a].h > rows_[b].h; });
   pending_.assign(runs.rbegin(), runs.rend());
   StudyProgress progress(runs.size(), quiet_);
-  catch_signals();
+  catch_end_signals(count_signal, /*second_kills=*/false);
   while (!active_.empty() || (!pending_.empty() && signals == 0)) {
     start_waiting(jobs);
     pass_on_signals(progress);

@@ -231,6 +231,77 @@ class OutputFolder(Case):
         self.assertEqual((self.here / "out" / "energy.csv").read_text(), (self.here / "fresh" / "energy.csv").read_text())
         self.assertEqual(runs.summary(self.here / "out")["time_s"], runs.summary(self.here / "fresh")["time_s"])
 
+    def test_holds_the_new_run_only(self):
+        """Histories, fields, pictures and whatever else an older run has left are gone; what is somebody else's stays."""
+        self.ends(self.quick("fresh"), 0)
+        self.ends(self.quick("out", changes={"output.field_times": "[0.01, 0.02]"}), 0)
+        self.assertTrue((self.here / "out/fields/particles.h5part").is_file())
+        for name in ("history/gone.csv", "fields/structure_00003.hdf", "checkpoint_2.h5", "profile.csv", "pictures/energy.png"):
+            (self.here / "out" / name).parent.mkdir(exist_ok=True)
+            (self.here / "out" / name).write_text("time [s],pressure [Pa]\n0,1\n")
+        for name in ("thesis.txt", "history/notes.txt", "pictures/mine.png"):
+            (self.here / "out" / name).write_text("my only copy")
+        self.ends(self.quick("out", "--force"), 0)
+        self.assertEqual(contents(self.here / "out").keys() - contents(self.here / "fresh").keys(),
+                         {"thesis.txt", "history", "history/notes.txt", "pictures", "pictures/mine.png"})
+        self.assertEqual(contents(self.here / "fresh").keys() - contents(self.here / "out").keys(), set())
+
+    def test_a_link_is_not_followed(self):
+        self.ends(self.quick("old", changes={"output.field_times": "[0.01]"}), 0)
+        before = contents(self.here / "old")
+        (self.here / "out").mkdir()
+        for name in ("fields", "energy.csv", "summary.json"):
+            (self.here / "out" / name).symlink_to(self.here / "old" / name)
+        self.ends(self.quick("out", "--force", changes={"output.field_times": "[0.02]"}), 0)
+        self.assertEqual(contents(self.here / "old"), before)
+        self.assertFalse((self.here / "out" / "fields").is_symlink())
+
+    def test_what_is_no_file(self):
+        """A folder or a pipe with the name of one of a run's files: said before the run, and nothing waits for a writer."""
+        for name in ("summary.json", "energy.csv", "evidence.h5", "resolved.toml"):
+            for make in (os.mkdir, os.mkfifo):
+                with self.subTest(name=name, make=make.__name__):
+                    self.ends(self.quick("out", "--force"), 0)
+                    (self.here / "out" / name).unlink()
+                    make(self.here / "out" / name)
+                    before = sorted(path.name for path in (self.here / "out").iterdir())
+                    self.ends(self.quick("out", "--force", timeout=20), 2, rf"out/{name} is no file.*-o")
+                    self.assertEqual(sorted(path.name for path in (self.here / "out").iterdir()), before)
+                    shutil.rmtree(self.here / "out")
+
+    def test_two_runs_at_once(self):
+        """One folder, one process: the others are told which, whatever they want, and spoil nothing."""
+        settings = {**LONG, "comparison.reference": f'"{CASES}/rigid_cylinder/reference/metrics.csv"'}
+        arguments = ["run", CASES / "rigid_cylinder", "-o", "deep/out", *runs.overrides(settings)]
+        with subprocess.Popen([PROGRAM, *arguments, "-v"], cwd=self.here, stdout=subprocess.PIPE, text=True,
+                              env=runs.ENVIRONMENT) as process:
+            Signals.wait_for_steps(process, 1)
+            names = sorted(contents(self.here / "deep/out"))
+            for other in (arguments, [*arguments, "--force"], ["run", CASES / "sjogreen", "-o", "deep/out", "--force"]):
+                self.ends(self.undex(*other), 2, rf"deep/out is in use by undex run, process {process.pid}.*-o")
+            self.ends(self.undex("judge", "deep/out"), 2, "deep/out.*wait for it")
+            self.assertEqual(sorted(contents(self.here / "deep/out")), names)
+            self.assertIsNone(process.poll())
+            process.kill()
+        # What a killed one leaves behind binds nobody.
+        self.ends(self.undex("run", CASES / "sjogreen", "-q", "-o", "deep/out", "--force", *runs.overrides(QUICK)), 0)
+        self.assertNotIn(".lock", contents(self.here / "deep/out"))
+
+    def test_a_race_for_a_fresh_folder(self):
+        """Of runs that start together one computes; what it leaves is what it leaves alone."""
+        settings = {**QUICK, "end_time": 0.1, "resolution.spacing": 0.002}
+        command = [PROGRAM, "run", CASES / "sjogreen", "-q", "--force", *runs.overrides(settings)]
+        self.ends(self.undex(*command[1:], "-o", "alone"), 0)
+        racers = [subprocess.Popen([*command, "-o", "out"], cwd=self.here, stderr=subprocess.PIPE, text=True, env=runs.ENVIRONMENT)
+                  for _ in range(4)]
+        said = [racer.communicate(timeout=120)[1] for racer in racers]
+        codes = [racer.returncode for racer in racers]
+        self.assertIn(0, codes)
+        self.assertLessEqual(set(codes), {0, 2}, said)
+        for code, text in zip(codes, said):
+            self.assertEqual(text, "") if code == 0 else self.assertRegex(text, r"out is in use by undex run, process \d+")
+        self.assertEqual(runs.differences(self.here / "out", self.here / "alone"), [])
+
     def test_stale_summary(self):
         """A run over an older one that is killed must not leave the older one's 'done'."""
         self.ends(self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q", *runs.overrides({**LONG, "end_time": 2e-6})), 0)
@@ -328,6 +399,52 @@ class Signals(Case):
         self.assertEqual(self.signalled(signal.SIGTERM), 143)
         self.interrupted_record(self.here / "out", "interrupted", "SIGTERM")
 
+    def test_every_signal_that_asks_for_an_end(self):
+        """From a terminal that goes away, a batch system, a limit: the present step is finished and everything is recorded."""
+        for name in ("SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGXCPU"):
+            with self.subTest(signal=name):
+                number = getattr(signal, name)
+                self.assertEqual(self.signalled(number), 128 + number)
+                self.interrupted_record(self.here / "out", "interrupted", name)
+                shutil.rmtree(self.here / "out")
+
+    def test_a_limit_of_cpu_time(self):
+        """The kernel repeats SIGXCPU every second: the run ends by the first all the same."""
+        settings = {**LONG, "resolution.spacing": 0.004}
+        finished = self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q", *runs.overrides(settings),
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (2, 60)))
+        self.assertEqual(finished.returncode, 128 + signal.SIGXCPU, finished.stderr)
+        self.interrupted_record(self.here / "out", "interrupted", "SIGXCPU")
+
+    def test_nohup(self):
+        """A run that was started to outlive its terminal does."""
+        command = [PROGRAM, "run", CASES / "sjogreen", "-o", "out", "-v", *runs.overrides({**QUICK, "resolution.spacing": 0.002})]
+        with subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True, env=runs.ENVIRONMENT,
+                              preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) as process:
+            self.wait_for_steps(process, 3)
+            process.send_signal(signal.SIGHUP)
+            process.stdout.read()
+            self.assertEqual(process.wait(timeout=120), 0)
+        self.assertEqual(runs.summary(self.here / "out")["status"], "done")
+
+    def test_kill(self):
+        """Whenever a run is killed: whole rows, all files as far as each other, and what was computed a second ago is there."""
+        for steps, spacing in ((1, 0.003), (2, 0.004), (4, 0.006)):
+            with self.subTest(steps=steps):
+                settings = {**LONG, "resolution.spacing": spacing}
+                with subprocess.Popen([PROGRAM, "run", CASES / "rigid_cylinder", "-o", "out", "-v", "--force", *runs.overrides(settings)],
+                                      cwd=self.here, stdout=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) as process:
+                    self.wait_for_steps(process, steps)
+                    time.sleep(1)
+                    process.kill()
+                tables = runs.histories(self.here / "out")
+                self.assertGreater(len(tables), 1)
+                self.assertEqual({len(table.rows) for table in tables.values()}, {len(tables["energy.csv"].rows)})
+                for name, table in tables.items():
+                    self.assertTrue(table.ends_whole, name)
+                    self.assertTrue(all(len(row) == len(table.names) for row in table.rows), name)
+                    self.assertGreaterEqual(len(table.rows), 1 + steps, name)
+
     def test_interrupt_of_a_coupled_run(self):
         settings = {**LONG, "structure.cells": "{through = 2, around = 24, along = 12}"}
         self.assertEqual(self.signalled(signal.SIGINT, "al_tube_fem", settings), 130)
@@ -341,6 +458,27 @@ class Signals(Case):
             process.stdout.close()
             process.wait(timeout=120)
         self.assertEqual(runs.summary(self.here / "out")["status"], "done")
+
+
+class Pictures(Case):
+    def test_of_a_run_that_was_killed(self):
+        """A last row that is cut anywhere is left out, and its file is not."""
+        if runs.call(sys.executable, "-c", "import numpy, matplotlib").returncode != 0:
+            self.skipTest("no Matplotlib")
+        self.ends(self.undex("run", CASES / "water_shock_tube", "-o", "out", "-q", "-P", "output.field_times=[]", "--tend", "2e-5",
+                             "-P", 'probes=[{name="p", kind="fluid", point=[0.1]}]'), 0)
+        (self.here / "out/summary.json").unlink()
+        for name in ("energy.csv", "history/p.csv"):
+            text = (self.here / "out" / name).read_text()
+            last = text.rstrip("\n").rfind("\n") + 1
+            for length in (last + 1, text.rfind(",") + 2, len(text) - 2, text.rfind(",") + 1):
+                with self.subTest(file=name, ends=text[last:length]):
+                    (self.here / "out" / name).write_text(text[:length])
+                    finished = runs.call(sys.executable, CASES.parent / "scripts" / "plot.py", self.here / "out")
+                    self.assertNotIn("left out", finished.stdout)
+                    for picture in ("histories.png", "energy.png"):
+                        self.assertIn(picture, finished.stdout)
+            (self.here / "out" / name).write_text(text)
 
 
 class Numerics(Case):
@@ -881,7 +1019,7 @@ resolution.spacing = 0.0002
     def signalled(self, number, code):
         self.study(self.LONG)
         with self.started() as process:
-            self.ends(self.undex("study", "gas.toml"), 2, "another undex study is at work in out/study_gas")
+            self.ends(self.undex("study", "gas.toml"), 2, r"out/study_gas is in use by undex study, process \d+")
             process.send_signal(number)
             said = process.stdout.read()
             self.assertEqual(process.wait(timeout=60), code)
