@@ -60,6 +60,20 @@ std::vector<fs::path> case_folders() {
   return folders;
 }
 
+/// The verdict, its metrics in the record. Where it cannot be had the run is recorded without, and `undex judge` may try again.
+judge::Verdict verdict_of(const judge::Judge& judge, run::Result& result) {
+  judge::Verdict verdict;
+  if (result.failure) return verdict;
+  try {
+    verdict = judge.verdict(result.evidence);
+  } catch (const std::exception& error) {
+    result.failure = std::current_exception();
+    result.record.message += (result.record.message.empty() ? "" : "; ") + std::string("not judged: ") + error.what();
+  }
+  result.record.metrics = verdict.metrics;
+  return verdict;
+}
+
 template <class Set>
 void print_set(const Set& set) {
   std::printf("%s\n  %s\n ", set.name.c_str(), set.source.c_str());
@@ -93,12 +107,12 @@ int run_scene(const RunArguments& arguments) {
   output::require_unused_folder(options.output, arguments.force);
 
   run::Result result = run::compute(scene, options);
-  const judge::Verdict verdict = judge.verdict(result.evidence);
-  result.record.metrics = verdict.metrics;
+  const judge::Verdict verdict = verdict_of(judge, result);
   output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
   judge::write_tables(options.output, verdict);
   if (options.verbosity >= 0) std::printf("%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str());
-  if (!result.not_saved.empty()) throw FileError(result.not_saved);  // the record is kept all the same
+  if (result.failure) std::rethrow_exception(result.failure);  // the record is kept all the same
+  if (!result.not_saved.empty()) throw FileError(result.not_saved);
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
   return result.signal == 0 ? exit_done : 128 + result.signal;
 }

@@ -9,6 +9,7 @@
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "judge/rejudge.hpp"
+#include "run/run.hpp"
 #include "study/compare_runs.hpp"
 #include "study/study.hpp"
 
@@ -162,7 +163,7 @@ int main(int argc, char** argv) {
   } catch (const FileError& error) {
     return failed(exit_internal, error.what());
   } catch (const std::bad_alloc&) {
-    return failed(exit_internal, "out of memory; take a larger spacing, or symmetry planes");
+    return failed(exit_internal, run::out_of_memory);
   } catch (const std::exception& error) {
     return failed(exit_internal, (std::string("internal error: ") + error.what()).c_str());
   }

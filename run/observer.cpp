@@ -79,8 +79,7 @@ void Observer::flush() {
   last_flush_ = std::chrono::steady_clock::now();
 }
 
-output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) {
-  flush();
+output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const {
   output::Evidence evidence{.time = simulation.time(), .probes = probes_.samples(), .energy = energy_.samples(), .fields = {}};
   for (const std::string& name : last_fields) evidence.fields[name] = last_field(simulation, name);
   return evidence;

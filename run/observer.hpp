@@ -44,8 +44,8 @@ class Observer {
   /// See Snapshots.
   bool write_at_stop() { return snapshots_.write_at_stop(); }
   /// Everything observed, with those fields of the last state ("fluid.pressure"; "body.position" is that of the first deformable
-  /// body). The histories are then on disk too.
-  output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields);
+  /// body).
+  output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const;
 
  private:
   const scene::Scene& scene_;

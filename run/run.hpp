@@ -1,6 +1,7 @@
 // One run: a scene computed from start to end, with its histories, fields and evidence in one folder. Nothing here judges it.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "scene/scene.hpp"
 
 namespace undex::run {
+
+/// What is said when memory runs out.
+inline constexpr const char* out_of_memory = "out of memory; take a larger spacing, or symmetry planes";
 
 struct RunOptions {
   std::filesystem::path output;          ///< there, and held by an output::FolderLock
@@ -23,13 +27,15 @@ struct RunOptions {
 /// How a run ended and what it has observed.
 struct Result {
   output::Evidence evidence;  ///< also in evidence.h5
-  output::RunRecord record;   ///< without metrics; its status is "done", "interrupted" (a signal) or "stopped" (the numerics)
-  int signal = 0;             ///< that interrupted it, of end_signals
-  std::string not_saved;      ///< why evidence.h5 could not be written; empty: it was
+  output::RunRecord
+      record;      ///< without metrics; its status is "done", "interrupted" (a signal), "stopped" (the numerics) or "failed"
+  int signal = 0;  ///< that interrupted it, of end_signals
+  std::exception_ptr failure;  ///< of files or memory, which ended it; null: none
+  std::string not_saved;       ///< why a history or evidence.h5 is not whole; empty: they are
 };
 
 /// Computes the scene and leaves everything in the folder but summary.json, which waits for the metrics. What was computed
-/// before a signal or a stop by the numerics is kept and returned likewise. Throws SceneError, FileError.
+/// before a signal, a stop by the numerics or a failure of files or memory is kept and returned likewise. Throws SceneError, FileError.
 Result compute(const scene::Scene& scene, const RunOptions& options);
 
 }  // namespace undex::run

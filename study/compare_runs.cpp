@@ -207,7 +207,8 @@ std::string settings_csv(const std::vector<DifferingSetting>& settings) {
 void add_notes(const std::vector<ComparedRun>& runs, const std::vector<Compared>& all, std::vector<std::string>& notes) {
   for (const ComparedRun& run : runs)
     if (const output::RunRecord& record = run.folder.record; record.status != "done")
-      notes.push_back(run.folder.path.string() + " was " + record.status + ": " + record.message);
+      notes.push_back(run.folder.path.string() + (record.status == "failed" ? " " : " was ") + record.status + ": " +
+                      record.message);
   std::string only_once;
   for (const Compared& each : all)
     if (each.quantity.count() == 1) only_once += (only_once.empty() ? "" : "; ") + each.quantity.title();

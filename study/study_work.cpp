@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 volatile std::sig_atomic_t first_signal = 0, signals = 0;
 void count_signal(int number) {
   if (signals == 0) first_signal = number;
-  signals = signals + 1;
+  if (signals == 0 || end_signal(number).insists) signals = signals + 1;
 }
 
 std::string quoted_for_shell(const std::string& text) {

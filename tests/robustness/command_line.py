@@ -347,10 +347,25 @@ class Disk(Case):
             with self.subTest(victim=victim):
                 self.ends(self.quick("out", "--force"), 0)
                 self.ends(self.limited(bytes_per_file, field_times), 1, rf"cannot write out/\S*{victim}: .*-o")
-                status = json.loads((self.here / "out" / "summary.json").read_text())["status"] if (
-                    self.here / "out" / "summary.json").exists() else "none"
-                self.assertNotEqual(status, "done")
+                if field_times == "[]":  # a step has been taken
+                    record = runs.summary(self.here / "out")
+                    self.assertEqual(record["status"], "failed")
+                    self.assertRegex(record["message"], rf"cannot write out/\S*{victim}")
+                self.assertFalse((self.here / "out/summary.json").exists() and runs.summary(self.here / "out")["status"] == "done")
+                for name, table in runs.histories(self.here / "out").items():
+                    self.assertTrue(table.ends_whole, name)
                 self.assertFalse([p for p in contents(self.here) if p.endswith(".part")], "a temporary file was left")
+
+    def test_a_folder_that_goes_away(self):
+        """What becomes of the files of a run that has ended does not cost its record: evidence.h5 cannot be written here."""
+        with subprocess.Popen([PROGRAM, "run", CASES / "sjogreen", "-o", "out", "-v", *runs.overrides({**QUICK, "resolution.spacing": 0.002})],
+                              cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) as process:
+            Signals.wait_for_steps(process, 1)
+            (self.here / "out/evidence.h5").mkdir()
+            _, said = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 1, said)
+        self.assertRegex(said, r"cannot write out/evidence\.h5: .*-o")
+        self.assertEqual(runs.summary(self.here / "out")["status"], "done")
 
     def test_full_file_system(self):
         """The real thing, where the kernel lets us mount a small file system."""
@@ -503,6 +518,27 @@ class Numerics(Case):
         """Too large a step for a scheme that dissipates little: every value stays finite, and the result means nothing."""
         self.stopped("rigid_cylinder", {**LONG, "scheme.courant": 1.0, "resolution.spacing": 0.006},
                      r"time [\d.e-]+ s: the energy balance is off by \d+ %.*scheme.courant")
+
+    def test_the_last_step_is_looked_at(self):
+        """However few steps a run has: one whose last step has put the energy off does not end as done."""
+        plain = {"resolution.spacing": 0.006, "start.kind": "plain", "output.field_times": "[]"}
+        for step, steps in ((4e-5, 1), (1e-5, 1), (1e-4, 1), (6e-6, 2), (4e-6, 3)):
+            with self.subTest(step=step, steps=steps):
+                finished = self.undex("run", CASES / "rigid_cylinder", "-o", "out", "-q", "--force",
+                                      *runs.overrides({**plain, "scheme.fixed_step": step, "end_time": step * steps}))
+                self.ends(finished, 3, "fixed_step")
+                self.assertEqual(runs.summary(self.here / "out")["status"], "stopped")
+                self.assertEqual(len(runs.histories(self.here / "out")["energy.csv"].rows), steps + 1)
+
+    def test_a_sound_short_run(self):
+        """One step, in which the work of a load that sets in is behind the energy by all of it: nothing is wrong with that."""
+        settings = {"structure.cells": "{through = 2, around = 16, along = 8}", "output.history_interval": 0,
+                    "output.field_interval": 0, "end_time": 1e-9}
+        self.ends(self.undex("run", CASES / "tube_pulse", "-o", "out", "-q", *runs.overrides(settings)), 0)
+        record = runs.summary(self.here / "out")
+        self.assertEqual((record["status"], record["steps"]), ("done", 1))
+        self.assertAlmostEqual(record["time_s"], 1e-9)
+        self.assertGreater(abs(record["energy_error"]), 0.5)
 
     @unittest.skipUnless(runs.h5py, "no h5py")
     def test_last_state_is_on_disk(self):
