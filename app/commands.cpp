@@ -60,7 +60,7 @@ std::vector<fs::path> case_folders() {
   return folders;
 }
 
-/// The verdict, its metrics in the record. Where it cannot be had the run is recorded without, and `undex judge` may try again.
+/// The verdict, its metrics in the record. Where it cannot be had the run has failed, and `undex judge` may try again.
 judge::Verdict verdict_of(const judge::Judge& judge, run::Result& result) {
   judge::Verdict verdict;
   if (result.failure) return verdict;
@@ -68,7 +68,9 @@ judge::Verdict verdict_of(const judge::Judge& judge, run::Result& result) {
     verdict = judge.verdict(result.evidence);
   } catch (const std::exception& error) {
     result.failure = std::current_exception();
-    result.record.message += (result.record.message.empty() ? "" : "; ") + std::string("not judged: ") + error.what();
+    result.record.status = "failed";
+    result.record.message +=
+        (result.record.message.empty() ? "" : "; ") + std::string("computed, but not judged: ") + error.what();
   }
   result.record.metrics = verdict.metrics;
   return verdict;
@@ -100,7 +102,7 @@ int run_scene(const RunArguments& arguments) {
   options.output = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
   options.threads = scene.fluid.numerics.threads;
   options.verbosity = arguments.verbosity;
-  options.scene_text = whole_text(scene.file);
+  if (fs::is_regular_file(scene.file)) options.scene_text = whole_text(scene.file);  // of a pipe nothing is left
   options.program = version_line();
   options.last_fields = judge.last_fields();
   const output::FolderLock lock(options.output, "undex run");

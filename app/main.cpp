@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include "app/commands.hpp"
@@ -10,6 +11,7 @@
 #include "core/errors.hpp"
 #include "judge/rejudge.hpp"
 #include "run/run.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 #include "study/compare_runs.hpp"
 #include "study/study.hpp"
 
@@ -119,6 +121,7 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? exit_done : exit_usage;  // prints help or what is wrong
   }
+  if (const std::string wrong = sph::wrong_cpu_level(); !wrong.empty()) throw UsageError(wrong);
   if (*run) return run_scene(run_arguments);
   if (*check) return check_scene(check_arguments);
   if (*judgement) {
@@ -163,7 +166,8 @@ int main(int argc, char** argv) {
   } catch (const FileError& error) {
     return failed(exit_internal, error.what());
   } catch (const std::bad_alloc&) {
-    return failed(exit_internal, run::out_of_memory);
+    failed(exit_internal, run::out_of_memory);
+    std::_Exit(exit_internal);  // libraries that tidy up at the end take memory for it
   } catch (const std::exception& error) {
     return failed(exit_internal, (std::string("internal error: ") + error.what()).c_str());
   }

@@ -40,7 +40,18 @@ void throw_file_error(const std::string& action, const std::filesystem::path& pa
                   (error_number != 0 ? std::strerror(error_number) : "unknown reason") + "; " + remedy(error_number));
 }
 
+void require_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw FileError("cannot read " + path.string() + ": No such file or directory; check the file's path");
+  if (status.type() != std::filesystem::file_type::regular)
+    throw FileError("cannot read " + path.string() + ": it is a folder, a pipe or a device; name a file");
+}
+
 std::optional<std::string> text_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();

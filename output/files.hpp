@@ -10,7 +10,10 @@ namespace undex::output {
 /// Throws FileError "cannot <action> <path>: <reason>; <remedy>" for the given errno value.
 [[noreturn]] void throw_file_error(const std::string& action, const std::filesystem::path& path, int error_number);
 
-/// The whole of a file, or nothing where it cannot be read.
+/// Throws FileError unless there is a file: not a folder, nor a pipe or a device, from which reading might wait for ever.
+void require_file(const std::filesystem::path& path);
+
+/// The whole of a file, or nothing where it is none or cannot be read.
 std::optional<std::string> text_of(const std::filesystem::path& path);
 
 /// Writes `text` beside `path`, then renames it there: a reader (or a kill) sees the old file or the new one, never a

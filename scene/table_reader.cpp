@@ -26,9 +26,15 @@ std::string table_name(const std::string& path) { return path.empty() ? "at the 
 }  // namespace
 
 void report_unknown_keys(const Node& node, const std::string& path, const Section& known, Report& report) {
+  constexpr int most_remedies = 100;  // in one table
+  int unknown = 0;
+  const std::vector<std::string> names = known.key_names();
   for (const Entry& entry : node.entries) {
     if (known.find(entry.key)) continue;
-    const std::vector<std::string> names = known.key_names();
+    if (++unknown > most_remedies) {
+      report.add(entry, "unknown key");
+      continue;
+    }
     std::string remedy;
     if (const std::string near = nearest(entry.key, names); !near.empty()) remedy = "did you mean '" + near + "'?";
     else if (const std::string home = known.name.starts_with("study") ? "" : home_of(entry.key); !home.empty())

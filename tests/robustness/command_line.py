@@ -129,6 +129,16 @@ energy = 2.5
         self.ends(self.undex("run", scene), 2, r"case\.toml:10:\d+: not TOML")
         self.nothing_written(before)
 
+    def test_very_many_mistakes(self):
+        """What nobody reads is counted, not said."""
+        scene = self.scene("".join(f"key{k} = {k}\n" for k in range(100000)) + self.GAS)
+        finished = self.undex("check", scene)
+        self.ends(finished, 2, r"case\.toml:1:1: unknown key 'key0'", r"and \d+ more; mend these first")
+        self.assertLess(len(finished.stderr), 100000)
+
+    def test_what_never_ends(self):
+        self.ends(self.undex("check", "/dev/zero", timeout=60), 1, "/dev/zero: larger than")
+
     def test_wrong_override(self):
         for change, says in (({"resolution.spacng": 1}, r"-P resolution\.spacng.*did you mean"),
                              ({"bodies.lefd.density": 1}, r"-P bodies\.lefd.*left"),
@@ -776,12 +786,40 @@ class Judge(Case):
         def damage(name, text):
             return lambda: (self.here / "rigid/reference" / name).write_text(text)
         for name, text, says in (("metrics.csv", "metric,label\n", r"metrics\.csv:1: the header must be"),
+                                 ("metrics.csv", "", r"metrics\.csv"),
+                                 ("metrics.csv", "metric,label,unit,scale,a\nfirst_peak_pa,p,MPa,1e-6,nan\n", r"metrics\.csv:2: 'nan' is neither"),
+                                 ("midline_wall_pressure.csv", "", r"pressure\.csv: the file is empty"),
+                                 ("midline_wall_pressure.csv", "\0" * 300, r"pressure\.csv:1: a header such as"),
+                                 ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n0,1\n", r"pressure\.csv: fewer than two"),
+                                 ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n0,1\n1,nan\n", r"column 'pressure': .*not finite"),
+                                 ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n0,1\n1,2x\n", r"pressure\.csv:3: expected numbers"),
                                  ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n0,1\n1,x\n", r"pressure\.csv:3: expected numbers"),
                                  ("midline_wall_pressure.csv", "time [s],pressure [Pa]\n1,1\n0,1\n", r"column 'pressure': .*mend")):
             with self.subTest(name=name):
                 self.ends(self.rigid(damage=damage(name, text)), 1, says)
                 self.assertFalse((self.here / "out").exists())
                 self.ends(self.undex("check", "rigid", *runs.overrides(self.RIGID)), 1, says)
+
+    def test_a_damaged_reference_of_other_commands(self):
+        """judge and compare find it before they write anything, and do not wait for a pipe."""
+        self.ends(self.rigid(), 0)
+        shutil.copytree(self.here / "out", self.here / "other")
+        history, table = self.here / "rigid/reference/midline_wall_pressure.csv", self.here / "rigid/reference/metrics.csv"
+        before = {name: data for name, data in contents(self.here).items() if not name.startswith("rigid/reference")}
+        for path, damaged in ((history, history.read_bytes()[:5010]), (table, b""), (history, None), (table, None)):
+            sound = path.read_bytes()
+            path.unlink()
+            path.write_bytes(damaged) if damaged is not None else os.mkfifo(path)
+            for command in (["judge", "out"], ["judge", "out", "--reference", path],
+                            ["compare", "out", "other", "--label", "a,b", "-o", "both", "--reference", path]):
+                if damaged is None and path == history and command == ["judge", "out"]:
+                    continue  # a table with no history beside it is a reference too
+                with self.subTest(command=command, path=path.name, pipe=damaged is None):
+                    self.ends(self.undex(*command, timeout=30), 2, path.name)
+                    self.assertEqual({name: data for name, data in contents(self.here).items()
+                                      if not name.startswith("rigid/reference")}, before)
+            path.unlink()
+            path.write_bytes(sound)
 
     def test_what_cannot_be_judged(self):
         self.ends(self.quick(), 0)
@@ -1201,6 +1239,17 @@ class Telling(Case):
         version = json.loads(finished.stdout)
         self.assertGreaterEqual(version.keys(), {"version", "git", "compiler", "build_type", "cpu_level"})
         self.assertTrue(self.undex("version").stdout.startswith(f"undex {version['version']}"))
+
+    def test_cpu_level(self):
+        """A level that there is not is no reason to take another in silence."""
+        for level in ("v9", "avx512", "x86-64-v5", "X86-64-V2"):
+            for arguments in (["version"], ["check", CASES / "sjogreen"], ["run", CASES / "sjogreen"]):
+                finished = self.undex(*arguments, env={**runs.ENVIRONMENT, "UNDEX_CPU_LEVEL": level})
+                self.ends(finished, 2, f"UNDEX_CPU_LEVEL={level}: no such level; known: x86-64-v2, x86-64-v3, x86-64-v4")
+        self.assertEqual(contents(self.here), {})
+        finished = self.undex("version", env={**runs.ENVIRONMENT, "UNDEX_CPU_LEVEL": "x86-64-v2"})
+        self.ends(finished, 0)
+        self.assertIn("x86-64-v2", finished.stdout)
 
     def test_help(self):
         for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["compare", "--help"], ["study", "--help"]):

@@ -208,6 +208,93 @@ TEST_F(SceneMutations, StudiesDamaged) {
     survives_as_study(text);
 }
 
+/// Pieces of TOML and bytes that are no text, put together at random: much of it goes where no mutation of a sound file leads.
+TEST_F(SceneMutations, AnyBytes) {
+  const std::vector<std::string> pieces{"\"",
+                                        "\"\"\"",
+                                        "'''",
+                                        "'",
+                                        "\\",
+                                        "\\u",
+                                        "\\U0010FFFF",
+                                        "#",
+                                        "[",
+                                        "]",
+                                        "[[",
+                                        "]]",
+                                        "{",
+                                        "}",
+                                        "=",
+                                        ".",
+                                        ",",
+                                        "\n",
+                                        "\r\n",
+                                        "\r",
+                                        "\t",
+                                        " ",
+                                        "a",
+                                        "0x",
+                                        "1e",
+                                        "+",
+                                        "-",
+                                        "_",
+                                        "inf",
+                                        "nan",
+                                        "true",
+                                        ":",
+                                        "T",
+                                        "Z",
+                                        "1979-05-27",
+                                        "07:32:00",
+                                        "\x7f",
+                                        "\xef\xbb\xbf",
+                                        "\xc3\xa4",
+                                        "\xf4\x90\x80\x80",
+                                        "\xed\xa0\x80",
+                                        "\xc0\x80",
+                                        "\xff",
+                                        "\xe2\x80\xa8",
+                                        std::string(1, '\0')};
+  for (int i = 0; i < 10 * tries(); ++i) {
+    std::string text = below(2) ? "end_time = " : "";
+    for (std::size_t k = 0, count = 1 + below(12); k < count; ++k) text += pieces[below(pieces.size())];
+    survives(text);
+    for (std::size_t k = 0, count = below(20); k < count; ++k) text += static_cast<char>(below(256));
+    survives(text);
+  }
+}
+
+TEST_F(SceneMutations, WhatIsNoTextIsNamedWithItsPlace) {
+  const auto message = [&](const std::string& text) {
+    const fs::path file = folder_ / "case.toml";
+    std::ofstream(file, std::ios::binary) << text;
+    try {
+      scene::read(file, kinds);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto says = [&](const std::string& text, const std::string& wanted) {
+    EXPECT_NE(message(text).find("case.toml:" + wanted), std::string::npos) << message(text).substr(0, 300);
+  };
+  says("\xff\xfe\x01", "1:1: not TOML: the byte 0xff is no UTF-8");
+  says("end_time = 1\n# \xc3\xa4 \xe9\n", "2:5: not TOML: the byte 0xe9 is no UTF-8");
+  says("title = \"\xed\xa0\x80\"", "1:10: not TOML: the byte 0xed");
+  says(std::string("end_time\0= 1", 12), "1:9: not TOML: the control character 0x00");
+  std::string deep = "a";
+  for (int i = 0; i < 200000; ++i) deep += ".\"#b\"";
+  for (const std::string& text : {deep + " = 1", '[' + deep + ']', "a = {" + deep + " = 1}"}) says("end_time = 1\n" + text, "2:");
+  EXPECT_NE(message(deep + " = 1").find("a key of more than 32 parts"), std::string::npos);
+  // None of it is a key of many parts.
+  std::string list = "x = [0.5";
+  for (int i = 0; i < 2000; ++i) list += ", 0.5";
+  const std::string dots(500, '.');
+  for (const std::string& text :
+       {list + "]", "# " + dots, "title = \"" + dots + "\"", "title = \"\\\"" + dots + "\"", "title = '" + dots + "'"})
+    EXPECT_EQ(message(text).find("not TOML"), std::string::npos) << message(text).substr(0, 200);
+}
+
 TEST_F(SceneMutations, DeepAndEmpty) {
   survives("");
   survives("\xff\xfe");
