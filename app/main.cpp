@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 
 #include "app/commands.hpp"
@@ -149,12 +150,25 @@ int failed(ExitCode code, const char* message) {
   return code;
 }
 
+/// Memory may run out where no exception can pass, such as in what a library does to tidy up: the end is that of any lack of it.
+[[noreturn]] void end_where_no_exception_passes() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    failed(exit_internal, run::out_of_memory);
+    std::_Exit(exit_internal);
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // A file that may not grow and a reader of stdout that has left are errors of a write, not ends of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::set_terminate(end_where_no_exception_passes);
   try {
     return dispatch(argc, argv);
   } catch (const SceneError& error) {
