@@ -1,6 +1,8 @@
 // The command-line program: arguments in, exit code out, every mistake reported in one place.
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
+#include "core/last_words.hpp"
 #include "judge/rejudge.hpp"
 #include "run/run.hpp"
 #include "sph_fluid/pairs/cpu_level.hpp"
@@ -150,16 +153,25 @@ int failed(ExitCode code, const char* message) {
   return code;
 }
 
-/// Memory may run out where no exception can pass, such as in what a library does to tidy up: the end is that of any lack of it.
+/// Memory may run out where no exception can pass: on one of the threads of a loop, or in what a library does to tidy up. The end is
+/// that of any lack of it, with the record of the run. (Out of a loop of threads the exception comes without its name.)
 [[noreturn]] void end_where_no_exception_passes() {
+  static std::atomic_flag ending;
+  while (ending.test_and_set()) pause();  // another thread sees to it
+  const char* why = "out of memory, or an internal error where no exception may pass; take a larger spacing, or symmetry planes";
   try {
     if (std::current_exception()) std::rethrow_exception(std::current_exception());
   } catch (const std::bad_alloc&) {
-    failed(exit_internal, run::out_of_memory);
-    std::_Exit(exit_internal);
+    why = run::out_of_memory;
+  } catch (const std::exception& error) {
+    static char text[500];
+    std::snprintf(text, sizeof text, "internal error: %s", error.what());
+    why = text;
   } catch (...) {
   }
-  std::abort();
+  say_last_words(why);
+  failed(exit_internal, why);
+  std::_Exit(exit_internal);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "core/errors.hpp"
+#include "core/last_words.hpp"
 #include "core/signals.hpp"
 #include "output/run_folder.hpp"
 #include "run/observer.hpp"
@@ -175,6 +176,16 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   std::vector<char> reserve(1 << 20);  // [byte] from which the record is written when memory has run out
   Course course{.time = simulation.time()};
   End end;
+  // The loops over particles take memory as they go, and what they throw ends the program within them.
+  const LastWords words([&](const char* why) {
+    std::vector<char>().swap(reserve);
+    output::RunRecord record = record_without_state(scene, course, since);
+    record.program = options.program;
+    record.status = "failed";
+    record.message = why;
+    output::write_summary(options.output / "summary.json", record);
+    observer.flush();
+  });
   const auto guarded = [&](const auto& steps) {
     try {
       steps();

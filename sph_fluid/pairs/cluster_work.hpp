@@ -356,21 +356,15 @@ requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
-  bool out_of_memory = false;  // no room for candidates: the others go on, for some wait for this block
 #pragma omp parallel for schedule(monotonic : dynamic, 1)
   for (std::uint32_t b = 0; b < in.block_count; ++b) {
     if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
     long long met = 0;
-    try {
-      for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
-        met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
-    } catch (...) {
-      __atomic_store_n(&out_of_memory, true, __ATOMIC_RELAXED);
-    }
+    for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
+      met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
     out.interactions[b] = met;
     __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
   }
-  if (out_of_memory) throw_out_of_memory();
 }
 
 /// The loop of a pass: that of the kernel where it is one of `Own`, else the one that serves any.

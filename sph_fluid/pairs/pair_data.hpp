@@ -77,11 +77,9 @@ struct Scratch {
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
   std::uint32_t capacity = 0;                       ///< of the last four
 };
-/// Makes room, keeping what is there. Throws std::bad_alloc, which must not leave a parallel region.
+/// Makes room, keeping what is there.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
 void release(Scratch&);
-/// Throws std::bad_alloc. Out of line: what is compiled per instruction set instantiates nothing of a library.
-[[noreturn]] void throw_out_of_memory();
 
 /// A kernel as the loops need it.
 struct KernelChoice {

@@ -11,6 +11,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,8 @@ def attempt(program, library, scene, folder, **failing):
     """Exit code (None: it hangs), stderr, status in summary.json."""
     environment = {**os.environ, "LD_PRELOAD": str(library), "OMP_WAIT_POLICY": "passive",
                    **{f"UNDEX_{key.upper()}": str(value) for key, value in failing.items()}}
-    command = [program, "run", scene[0], "-o", folder, "-q", "--force"] + [part for change in scene[1:] for part in ("-P", change)]
+    shutil.rmtree(folder, ignore_errors=True)  # what an older run has left is no end of this one
+    command = [program, "run", scene[0], "-o", folder, "-q"] + [part for change in scene[1:] for part in ("-P", change)]
     try:
         done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=120)
     except subprocess.TimeoutExpired:
