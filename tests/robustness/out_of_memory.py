@@ -3,8 +3,7 @@
 
     out_of_memory.py PROGRAM CASES_FOLDER LIBRARY [tries a scene and way of failing]
 
-LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run, those
-of its steps the most.
+LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run.
 """
 import json
 import os
