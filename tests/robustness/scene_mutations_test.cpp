@@ -282,6 +282,11 @@ TEST_F(SceneMutations, WhatIsNoTextIsNamedWithItsPlace) {
   says("end_time = 1\n# \xc3\xa4 \xe9\n", "2:5: not TOML: the byte 0xe9 is no UTF-8");
   says("title = \"\xed\xa0\x80\"", "1:10: not TOML: the byte 0xed");
   says(std::string("end_time\0= 1", 12), "1:9: not TOML: the control character 0x00");
+  // Letters that the parser looks at where white space may be.
+  for (const std::string letter : {"\xc3\xa4", "\xe2\x80\xa8", "\xe1\x9a\x81", "\xef\xbb\xbe"}) {
+    says("end_time = 1\n" + letter + " = 1", "2:1: not TOML");
+    EXPECT_EQ(message("title = \"\"\"\\\n  " + letter + "\"\"\"").find("not TOML"), std::string::npos) << letter;
+  }
   std::string deep = "a";
   for (int i = 0; i < 200000; ++i) deep += ".\"#b\"";
   for (const std::string& text : {deep + " = 1", '[' + deep + ']', "a = {" + deep + " = 1}"}) says("end_time = 1\n" + text, "2:");
