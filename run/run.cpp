@@ -13,9 +13,9 @@
 #include "run/plane_wave_start.hpp"
 #include "run/progress.hpp"
 #include "run/record.hpp"
+#include "run/room.hpp"
 #include "run/simulation.hpp"
 #include "run/spherical_start.hpp"
-#include "sph_fluid/walls/lattice_warnings.hpp"
 
 namespace undex::run {
 namespace {
@@ -107,9 +107,10 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   scene::Scene scene = given;
   if (options.threads > 0) scene.fluid.numerics.threads = options.threads;
   const std::string resolved = scene::to_toml(scene);
+  expect_room(scene);
   begin(scene, options.verbosity);
   Simulation simulation(scene);
-  const std::vector<std::string> warnings = sph::lattice_warnings(scene.fluid);
+  const std::vector<std::string> warnings = warnings_of(scene, options.output);
   if (options.verbosity >= 0)
     for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 

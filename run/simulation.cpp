@@ -15,6 +15,18 @@ namespace {
 /// The mass of finite elements cannot change.
 bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
 
+/// The table of the scene that a solver's complaint is about: it opens with the kind and, in quotes, the name of what it is about;
+/// else with the key itself.
+std::string table_of(const std::string& complaint, const std::string& otherwise) {
+  for (const auto& [word, list] : {std::pair("body '", "bodies."), {"solid '", "solids."}, {"wall '", "walls."}})
+    if (complaint.starts_with(word)) {
+      const std::size_t begin = std::string_view(word).size();
+      return list + complaint.substr(begin, complaint.find('\'', begin) - begin);
+    }
+  const std::string key = complaint.substr(0, complaint.find_first_of(" :"));
+  return key.find('.') != std::string::npos ? key : otherwise;
+}
+
 /// The fastest of particles with velocities v and places x, three components each.
 std::string fastest_of(const std::vector<double>& v, const std::vector<double>& x, const std::vector<double>& id) {
   const auto square = [&](std::size_t i) {
@@ -38,18 +50,18 @@ Simulation::Simulation(const scene::Scene& scene) {
 
 void Simulation::build(const scene::Scene& scene) {
   std::vector<Finding> findings;
-  const auto attempt = [&](auto build) {
+  const auto attempt = [&](const char* table, auto build) {
     try {
       build();
     } catch (const std::invalid_argument& mistake) {
-      findings.push_back({{}, mistake.what()});
+      findings.push_back(scene.places.finding(table_of(mistake.what(), table), mistake.what()));
     }
   };
-  if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
-  if (scene.structure) attempt([&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
+  if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
+  if (scene.structure) attempt("structure", [&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
   solid::Solids* solids = nullptr;
   if (!scene.solids.bodies.empty())
-    attempt([&] {
+    attempt("solids", [&] {
       auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
       if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
       solids = built.get();
@@ -57,7 +69,7 @@ void Simulation::build(const scene::Scene& scene) {
     });
   for (const auto& body : bodies_)
     if (body->time() < scene.fluid.start_time) body->advance(scene.fluid.start_time);
-  if (findings.empty()) attempt([&] { make_driver(scene.coupling, solids); });
+  if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 

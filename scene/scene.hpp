@@ -11,6 +11,7 @@
 #include "core/record.hpp"
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
+#include "scene/places.hpp"
 #include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
 #include "sph_solid/settings.hpp"
@@ -203,6 +204,8 @@ struct Scene {
   std::vector<Probe> probes;
   Output output;
   Comparison comparison;
+  Places places;                      ///< of its keys in the file
+  std::vector<std::string> warnings;  ///< "file:line:column: what is probably not meant"
 };
 
 template <class Visit>
