@@ -148,8 +148,35 @@ energy = 2.5
                     finished = self.undex(command[0], CASES / "rigid_cylinder", *command[1:], *runs.overrides(settings))
                     written = sorted(contents(self.here))
                     shutil.rmtree(self.here / "out", ignore_errors=True)
-                    self.ends(finished, 2, r"start\.kind")
+                    self.ends(finished, 2, r"start\.(kind|time)", r"case\.toml:\d+:\d+: |-P start")
                     self.assertEqual(written, [])
+
+    def test_more_memory_than_there_is(self):
+        """Refused from volumes and counts, before anything is allocated: the shell allows one gigabyte and a half."""
+        most = 1500 * 2**20
+        for scene, change in (("rigid_cylinder", {"resolution.spacing": 2e-4}),
+                              ("tube_pulse", {"structure.cells": "{through = 20, around = 2000, along = 1000}"})):
+            for command in (["run", "-o", "out"], ["check"]):
+                with self.subTest(scene=scene, command=command[0]):
+                    began = time.monotonic()
+                    finished = self.undex(command[0], CASES / scene, *command[1:], *runs.overrides(change),
+                                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (most, most)))
+                    self.ends(finished, 2, r"-P \S+: .* need about [\d.]+ GB of memory; this machine has 1\.57 GB; take")
+                    self.assertLess(time.monotonic() - began, 20)
+                    self.nothing_written({})
+
+    def test_a_solver_names_the_place(self):
+        """A body without a particle is found when the lattice is laid out."""
+        scene = self.scene(self.GAS.replace("dimension = 1", "dimension = 2").replace("low = 0, high = 1}", "low = [0, 0], high = [1, 1]}")
+                           .replace("spacing = 0.01", "spacing = 0.4") + """
+[[bodies]]
+name = "drop"
+shape = {type = "sphere", center = [2.0, 2.0], radius = 0.21}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
+energy = 2.5
+""")
+        finished = self.undex("check", scene)
+        self.ends(finished, 2, r"case\.toml:11:\d+: body 'drop' gets no particle")
 
     def test_a_structure_with_wrong_supports(self):
         """Findings of the solvers' own set-up come before anything is written too."""
