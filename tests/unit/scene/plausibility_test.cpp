@@ -1,4 +1,4 @@
-// Input that is readable and yet not what was meant: units, sizes, counts, mirror images, thin walls, sets that contradict themselves.
+// Input that is readable and yet not what was meant: units, sizes, counts, mirror images, thin walls, contradictory sets.
 #include <gtest/gtest.h>
 
 #include <cmath>
