@@ -15,8 +15,8 @@ namespace {
 /// The mass of finite elements cannot change.
 bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
 
-/// The table of the scene that a solver's complaint is about: it opens with the kind and the name, in quotes, of what is wrong, or
-/// with the key itself.
+/// The table of the scene that a solver's complaint is about: it opens with the kind and the name, in quotes, of what is wrong,
+/// or with the key itself.
 std::string table_of(const std::string& complaint, const std::string& otherwise) {
   for (const auto& [word, list] : {std::pair("body '", "bodies."), {"solid '", "solids."}, {"wall '", "walls."}})
     if (complaint.starts_with(word)) {
