@@ -127,7 +127,7 @@ Coupler::Window Coupler::advance(double end) {
 InterfaceLedger Coupler::ledger() const {
   InterfaceLedger ledger = ledger_;
   ledger.work_given = fluid_.ledger().wall_work;
-  ledger.work_received = structure_.ledger().external;
+  ledger.work_received = structure_.ledger().received;
   return ledger;
 }
 

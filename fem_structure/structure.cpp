@@ -171,9 +171,9 @@ struct Structure::Implementation {
   std::vector<Vec3> position, velocity;
   double time = 0.0, last_step = 0.0;
   long steps = 0;
-  double external_work = 0.0, integrator_jumps = 0.0, integrator_held = 0.0, first_critical_step = 0.0;
+  double received_work = 0.0, load_work = 0.0, integrator_jumps = 0.0, integrator_held = 0.0, first_critical_step = 0.0;
   double impact_loss = 0.0;
-  Vec3 plane_impulse = Vec3::Zero();
+  Vec3 plane_impulse = Vec3::Zero(), load_impulse = Vec3::Zero();
 
   // What follows from the state, and scratch, per node.
   std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
@@ -275,11 +275,13 @@ struct Structure::Implementation {
     return dt * dt / 8.0 * sum;
   }
 
-  double load_work() const {
-    double work = 0.0;
-    if (!settings.loads.empty())
-      for (std::size_t i = 0; i < load_force.size(); ++i) work += 0.5 * load_force[i].dot(increment[i]);
-    return work;
+  /// Impulse and work of the loads over half of a step of dt [s].
+  void book_loads(double dt) {
+    if (settings.loads.empty()) return;
+    for (std::size_t i = 0; i < load_force.size(); ++i) {
+      load_impulse += 0.5 * dt * load_force[i];
+      load_work += 0.5 * load_force[i].dot(increment[i]);
+    }
   }
 
   /// Nodes that would end the step of dt [s] beyond a rigid plane end it on the plane: a push, never a pull. A node that
@@ -311,15 +313,15 @@ struct Structure::Implementation {
       increment[i] = dt * velocity[i];
       position[i] += increment[i];
     }
-    external_work += load_work();
+    book_loads(dt);
     const long failed = elements->advance(position, increment, dt, internal_force);
     last_step = dt;
     if (failed >= 0) take_back_and_stop(failed, dt);
     time += dt;
     ++steps;
     find_load_force();
-    external_work += load_work();
-    for (int node : wet_nodes) external_work += impulse_force[node].dot(increment[node]);
+    book_loads(dt);
+    for (int node : wet_nodes) received_work += impulse_force[node].dot(increment[node]);
     find_acceleration();
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
@@ -428,7 +430,9 @@ BodyLedger Structure::ledger() const {
   ledger.elastic = self_->elements->elastic_energy();
   ledger.plastic = self_->elements->plastic_work();
   ledger.viscous = self_->elements->viscous_work();
-  ledger.external = self_->external_work;
+  ledger.received = self_->received_work;
+  ledger.external = self_->load_work;
+  ledger.impulse = self_->load_impulse + self_->plane_impulse;
   ledger.impact = self_->impact_loss;
   return ledger;
 }

@@ -21,8 +21,6 @@ class Driver {
   virtual ~Driver() = default;
   /// One step (a coupling window), not beyond `end` [s].
   virtual Step advance(double end) = 0;
-  /// Does water act on a body, so that the body's external work is received from it?
-  virtual bool joins_water_and_body() const { return false; }
   /// What has crossed the wet faces; nothing where nothing is coupled by them.
   virtual std::optional<coupling::InterfaceLedger> interface() const { return std::nullopt; }
   virtual PassTimers timers() const { return {}; }  ///< its own
@@ -50,7 +48,6 @@ class Coupled : public Driver {
  public:
   Coupled(sph::Fluid& fluid, DeformableBody& body, const coupling::Settings& settings) : coupler_(fluid, body, settings) {}
   Step advance(double end) override;
-  bool joins_water_and_body() const override { return true; }
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
   PassTimers timers() const override { return coupler_.timers(); }
 
@@ -63,7 +60,6 @@ class OneSystem : public Driver {
   OneSystem(sph::Fluid& fluid, solid::Solids& solids, const coupling::Settings& settings)
       : system_(fluid, solids, settings.free_slip) {}
   Step advance(double end) override;
-  bool joins_water_and_body() const override { return true; }
 
  private:
   coupling::ParticleSystem system_;

@@ -51,7 +51,7 @@ class RigidPlate : public DeformableBody {
   }
   BodyLedger ledger() const override {
     BodyLedger ledger;
-    ledger.external = work_;
+    ledger.received = work_;
     return ledger;
   }
   // What the coupling does not ask for.
