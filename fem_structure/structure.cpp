@@ -176,7 +176,7 @@ struct Structure::Implementation {
   Vec3 plane_impulse = Vec3::Zero(), load_impulse = Vec3::Zero();
 
   // What follows from the state, and scratch, per node.
-  std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
+  std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force, coming_velocity;
   std::vector<Vec3> inverse_mass;  ///< zero where a component is held
 
   PassTimers timers;
@@ -209,7 +209,7 @@ struct Structure::Implementation {
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
-    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force}) field->assign(n, Vec3::Zero());
+    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force, &coming_velocity}) field->assign(n, Vec3::Zero());
     take_wet_surface();
     first_critical_step = elements->critical_step();
     find_load_force();
@@ -360,6 +360,27 @@ struct Structure::Implementation {
 
   double stable_step() const { return settings.courant * elements->critical_step(); }
 
+  /// Velocities [m/s] in the middle of a step of dt [s]: kicked, and met by rigid planes.
+  void find_coming_velocity(double dt) {
+    const long n = static_cast<long>(position.size());
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i) {
+      coming_velocity[i] = velocity[i] + 0.5 * dt * acceleration[i];
+      for (const RigidPlane& plane : settings.planes)
+        if (depth(plane, position[i] + dt * coming_velocity[i]) > 0.0 && inverse_mass[i][plane.axis] != 0.0)
+          coming_velocity[i][plane.axis] = (plane.position - position[i][plane.axis]) / dt;
+    }
+  }
+
+  /// The stable step; or, where cells are about to close so much faster than they did (an impact, a load that jumps) that it would
+  /// not be stable, the one that then is.
+  double longest_step() {
+    const double stable = stable_step();
+    find_coming_velocity(stable);
+    const double coming = elements->coming_step(position, coming_velocity);
+    return coming < stable ? settings.courant * coming : stable;
+  }
+
   void advance(double t_end, std::span<const Vec3> impulse) {
     const auto timer = timers.measure("structure");
     if (!impulse.empty() && impulse.size() != wet_nodes.size())
@@ -375,7 +396,7 @@ struct Structure::Implementation {
       impulse_force[wet_nodes[i]] = impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(impulse[i] / interval);
     find_acceleration();
     for (;;) {
-      const double longest = stable_step();
+      const double longest = longest_step();
       if (!(longest > 1e-4 * settings.courant * first_critical_step))
         throw NumericalStop(
             description_of(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one"));
@@ -398,7 +419,7 @@ std::size_t Structure::cell_count() const { return self_->grid.cells.size(); }
 std::size_t Structure::node_count() const { return self_->grid.nodes.size(); }
 std::size_t Structure::memory_bytes() const {
   const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
-  std::size_t bytes = self_->elements->memory_bytes() + 9 * nodes * sizeof(Vec3);
+  std::size_t bytes = self_->elements->memory_bytes() + 10 * nodes * sizeof(Vec3);
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
   return bytes + wet * (4 * sizeof(Vec3) + sizeof(int) + sizeof(double)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }

@@ -61,6 +61,15 @@ double compression_energy(const sph::Fluid& fluid) {
   return sum;
 }
 
+/// Energy [J] of a strain of 1e-10 and of the motion that goes with it, in structure and solids: far above what rounding makes of a
+/// body at rest, far below what anybody computes.
+double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
+  double fastest = scene.structure ? materials::wave_speed(scene.structure->material) : 0.0, mass = 0.0;
+  for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
+  for (const auto& body : bodies) mass += body->ledger().mass;
+  return 0.5 * mass * std::pow(1e-10 * fastest, 2);
+}
+
 /// The fastest of particles with velocities v and places x, three components each.
 std::string fastest_of(const std::vector<double>& v, const std::vector<double>& x, const std::vector<double>& id) {
   const auto square = [&](std::size_t i) {
@@ -133,7 +142,7 @@ void Simulation::take_start(const scene::Scene& scene) {
   start_momentum_ = momentum();
   start_angular_momentum_ = angular_momentum();
   start_energy_ = energy().total();
-  start_compression_ = fluid_ ? copies_ * compression_energy(*fluid_) : 0.0;
+  least_scale_ = copies_ * ((fluid_ ? compression_energy(*fluid_) : 0.0) + rounding_energy(scene, bodies_));
 }
 
 double Simulation::time() const { return fluid_ ? fluid_->time() : bodies_.front()->time(); }
@@ -166,7 +175,7 @@ EnergyBalance Simulation::energy() const {
   }
   e.start = start_energy_;
   e.scale = std::max(
-      {std::abs(start_energy_), start_compression_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
+      {std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
   return e;
 }
 

@@ -85,7 +85,7 @@ class Simulation {
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   Vec3 gravity_ = Vec3::Zero();
   double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;
-  double start_compression_ = 0;    // energy that the fluid's pressure at the start stands for [J]
+  double least_scale_ = 0;  // of energies: what pressure and rounding at the start stand for [J]
   std::array<bool, 3> balanced_{};  // axes along which all impulses are booked
   bool closed_ = false;             // does nothing act from outside?
   Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();
