@@ -93,9 +93,12 @@ int run_scene(const RunArguments& arguments) {
   run::Result result = run::compute(scene, options);
   const judge::Verdict verdict = judge.verdict(result.evidence);
   result.record.metrics = verdict.metrics;
+  result.record.missing = verdict.missing;
   output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
   judge::write_tables(options.output, verdict);
-  if (options.verbosity >= 0) std::printf("%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str());
+  if (options.verbosity >= 0)
+    std::printf("%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
+                judge::missing_text(verdict.missing).c_str());
   if (!result.not_saved.empty()) throw FileError(result.not_saved);  // the record is kept all the same
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
   return result.signal == 0 ? exit_done : 128 + result.signal;

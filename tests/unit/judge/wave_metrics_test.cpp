@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "judge/free_field.hpp"
+#include "judge/judge.hpp"
 #include "judge/taylor_plate.hpp"
 
 namespace undex::judge {
@@ -54,6 +55,18 @@ TEST(PlateMetrics, WhatDidNotHappenIsNaN) {
                                           PlateHistories{{{0, 1e-5}, {0, 1e3}}, {{0, 1e-5}, {0, 1}}}, PlateHistories{}})
     for (const auto& [name, value] : plate_metrics(histories, 1.0, 1e6)) EXPECT_TRUE(std::isnan(value)) << name;
   EXPECT_THROW(plate_metrics({{{0, 1e-5}, {0, std::nan("")}}, {}}, 1.0, 1e6), std::invalid_argument);
+}
+
+/// Where water at rest has a pressure, a wave whose front stands at the plate begins above its own peak.
+TEST(PlateMetrics, APressureThatBeginsAboveThePeakHasReachedIt) {
+  const PlateHistories histories{{{0, 10e-6, 20e-6}, {1.1e6, 0, 0}}, {{0, 20e-6}, {0, 2}}};
+  EXPECT_NEAR(get(plate_metrics(histories, 1.0, 1e6), "cavitation_s"), 10e-6, 1e-12);
+}
+
+TEST(Missing, EveryReasonIsOneLine) {
+  EXPECT_EQ(missing_text({}), "");
+  EXPECT_EQ(missing_text({{"a", "it rained"}, {"b", "no probe"}, {"c", "it rained"}}),
+            "no value: a, c: it rained\nno value: b: no probe\n");
 }
 
 TEST(BlastMetrics, TrianglesGiveTheirExactAnswers) {
