@@ -193,6 +193,7 @@ struct Structure::Implementation {
         elements(make_elements(settings, grid)) {
     const std::size_t n = grid.nodes.size();
     position = grid.nodes;
+    time = settings.start_time;
     inverse_mass.resize(n);
     for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements->nodal_mass()[i]);
     double extent = 0.0;
@@ -209,7 +210,8 @@ struct Structure::Implementation {
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
-    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force, &coming_velocity}) field->assign(n, Vec3::Zero());
+    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force, &coming_velocity})
+      field->assign(n, Vec3::Zero());
     take_wet_surface();
     first_critical_step = elements->critical_step();
     find_load_force();

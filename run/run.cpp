@@ -48,10 +48,27 @@ void expect_energy(const Simulation& simulation, bool& was_off) {
   throw NumericalStop(text);
 }
 
+/// Says every few seconds how far the one-dimensional flow has come.
+class StartNews {
+ public:
+  explicit StartNews(int verbosity) : quiet_(verbosity < 0) {}
+  void operator()(double time, double front, double obstacle) {
+    if (quiet_ || since_.wall() < next_) return;
+    next_ = since_.wall() + 2.0;
+    std::printf("spherical start: %.4g us, front at %.4g mm of %.4g mm\n", time * 1e6, front * 1e3, obstacle * 1e3);
+    std::fflush(stdout);
+  }
+
+ private:
+  bool quiet_;
+  Stopwatch since_;
+  double next_ = 2.0;  // [s]
+};
+
 /// Lays the scene's start on its bodies, and says so.
 void begin(scene::Scene& scene, int verbosity) {
   std::string report;
-  if (scene.start.kind == scene::Start::Kind::spherical) report = begin_spherically(scene);
+  if (scene.start.kind == scene::Start::Kind::spherical) report = begin_spherically(scene, StartNews(verbosity));
   if (scene.start.kind == scene::Start::Kind::plane_wave) report = begin_with_plane_wave(scene);
   if (!report.empty() && verbosity >= 0) std::printf("%s\n", report.c_str());
 }

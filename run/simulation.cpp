@@ -110,8 +110,6 @@ void Simulation::build(const scene::Scene& scene) {
       solids = built.get();
       bodies_.push_back(std::move(built));
     });
-  for (const auto& body : bodies_)
-    if (body->time() < scene.fluid.start_time) body->advance(scene.fluid.start_time);
   if (findings.empty()) attempt([&] { make_driver(scene.coupling, solids); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }

@@ -226,8 +226,8 @@ void describe(Scene& scene, Visit&& visit) {
   visit(scene.fluid.gravity,
         {.name = "gravity",
          .unit = "m/s^2",
-         .meaning = "acts on fluid, structure and solids; not across a symmetry plane that cuts any of them. With "
-                    "`start.kind` \"plain\" only"});
+         .meaning = "acts on fluid, structure and solids; not across a symmetry plane that cuts any of them, nor with "
+                    "`start.kind` \"spherical\""});
   for (const char* table : {"resolution", "symmetry", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
                             "solid_scheme", "planes", "coupling", "probes", "output", "comparison"})
     visit(ByHand{}, {.name = table});

@@ -150,9 +150,9 @@ class Validator {
         complain(draft_.root, "gravity",
                  std::string("gravity is not its own mirror image across the symmetry plane ") + "xyz"[a] +
                      " = 0, which cuts a body; leave that plane out, or that component of gravity");
-    if (scene_.start.kind != Start::Kind::plain)
+    if (scene_.start.kind == Start::Kind::spherical)
       complain(draft_.root, "gravity",
-               "gravity needs start.kind = \"plain\": the flow of the other starts is computed without it");
+               "gravity does not go with start.kind = \"spherical\", whose flow is computed without it; take \"plain\"");
   }
 
   void lattice() {
