@@ -87,8 +87,9 @@ double peak_behind_front(const Blast& blast) {
     right += std::log(p.y[i]) * powers;
     ++count;
   }
-  if (count < 8) return top.y;  // the history ends in the front
-  return std::max(top.y, std::exp(Vec3(normal.ldlt().solve(right))[0]));
+  const bool ends_early = (p.t.back() - arrival) / blast.smear < farthest_fit;
+  if (ends_early || count < 8) return top.y;
+  return std::exp(Vec3(normal.ldlt().solve(right))[0]);
 }
 
 NamedNumbers blast_metrics(const Series& pressure, const Blast& reference, const std::string& name, double a, double b) {

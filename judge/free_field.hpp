@@ -18,7 +18,8 @@ struct Blast {
 };
 
 /// The peak behind the wave's front [Pa]: where that is smeared, the pressure a few widths behind it continued to the time of its half
-/// rise, log p by a parabola. It converges in second order where the largest value of the mesh does in first.
+/// rise, log p by a parabola. The largest value of a mesh is low in first order where its viscosity smears the front, and high where a
+/// limiter lets it overshoot.
 double peak_behind_front(const Blast& blast);
 
 /// A blast wave at a fixed point, run beside reference:
