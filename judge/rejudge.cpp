@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "judge/judge.hpp"
+#include "output/folder_lock.hpp"
 #include "output/run_folder.hpp"
 #include "scene/document.hpp"
 
@@ -45,10 +46,9 @@ auto as_usage(const Read& read) {
 
 void rejudge(const RejudgeOptions& options) {
   const fs::path& run = options.run;
-  const Reference instead = as_usage([&] {
-    output::require_finished_run(run);
-    return options.reference.empty() ? Reference{} : read_reference(options.reference);
-  });
+  as_usage([&] { output::require_finished_run(run); });
+  const output::FolderLock lock(run, "undex judge");
+  const Reference instead = as_usage([&] { return options.reference.empty() ? Reference{} : read_reference(options.reference); });
   const Judged judged = as_usage([&] {
     return Judged{.scene = scene_of(run, instead.table ? options.reference : fs::path()),
                   .evidence = output::read_evidence(run / "evidence.h5")};
@@ -59,11 +59,11 @@ void rejudge(const RejudgeOptions& options) {
   const Judge judge = as_usage([&] { return Judge(judged.scene, instead); });
   const Verdict verdict = as_usage([&] { return judge.verdict(judged.evidence); });
   write_tables(run, verdict);
-  output::replace_metrics(run / "summary.json", verdict.metrics);
+  output::replace_metrics(run / "summary.json", verdict.metrics, verdict.missing);
   if (options.quiet) return;
   const std::string table = judge.table(verdict.metrics);
-  std::printf("%s: %s\n%s", judged.scene.name.c_str(), comparison->title,
-              (table.empty() ? metrics_text(verdict.metrics) : table).c_str());
+  std::printf("%s: %s\n%s%s", judged.scene.name.c_str(), comparison->title,
+              (table.empty() ? metrics_text(verdict.metrics) : table).c_str(), missing_text(verdict.missing).c_str());
 }
 
 }  // namespace undex::judge
