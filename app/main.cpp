@@ -54,6 +54,31 @@ int dispatch(int argc, char** argv) {
       ->excludes(quiet);
   run->add_flag("--force", run_arguments.force, "write into an output folder that is not empty");
 
+  ResumeArguments resume_arguments;
+  CLI::App* resume =
+      program.add_subcommand("resume", "go on with a run that was cut, from its newest checkpoint, to the same bits");
+  resume->add_option("run", resume_arguments.folder, "output folder of the run")->required()->type_name("RUN");
+  resume
+      ->add_option_function<std::string>(
+          "-P,--set", [&](const std::string& text) { resume_arguments.overrides.push_back(text); },
+          "key=value: what does not touch the state may change: output, comparison, threads, end_time, new probes")
+      ->trigger_on_parse();
+  resume
+      ->add_option_function<std::string>(
+          "--tend", [&](const std::string& text) { resume_arguments.overrides.push_back("end_time=" + text); },
+          "a later end time [s]")
+      ->trigger_on_parse();
+  resume->add_option("-j,--threads", resume_arguments.threads, "threads; 0: the scene's choice, or all the machine has")
+      ->check(CLI::Range(0, 4096));
+  CLI::Option* quiet_resume = resume->add_flag_callback(
+      "-q,--quiet", [&] { resume_arguments.verbosity = -1; }, "print nothing but errors");
+  resume
+      ->add_flag_callback(
+          "-v,--verbose", [&] { resume_arguments.verbosity = 1; }, "print every step")
+      ->excludes(quiet_resume);
+  resume->footer(
+      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). docs/outputs.md");
+
   SceneArguments check_arguments;
   CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
   add_scene_arguments(*check, check_arguments);
@@ -127,6 +152,7 @@ int dispatch(int argc, char** argv) {
   }
   if (const std::string wrong = sph::wrong_cpu_level(); !wrong.empty()) throw UsageError(wrong);
   if (*run) return run_scene(run_arguments);
+  if (*resume) return resume_run(resume_arguments);
   if (*check) return check_scene(check_arguments);
   if (*judgement) {
     judge::rejudge(judge_options);
@@ -189,6 +215,8 @@ int main(int argc, char** argv) {
     return failed(exit_usage, error.what());
   } catch (const NumericalStop& error) {
     return failed(exit_numerics, (std::string("the numerics stopped the run: ") + error.what()).c_str());
+  } catch (const RestartError& error) {
+    return failed(exit_restart, error.what());
   } catch (const FileError& error) {
     return failed(exit_internal, error.what());
   } catch (const std::bad_alloc&) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/point_values.hpp"
+#include "core/state.hpp"
 #include "core/surface.hpp"
 #include "core/timers.hpp"
 
@@ -23,7 +24,8 @@ struct BodyLedger {
   double plastic = 0;   ///< plastic work
   double viscous = 0;   ///< by viscosity, and what contact between bodies has taken
   double impact = 0;    ///< kinetic energy of nodes lost as they hit rigid planes (vanishes with their mass)
-  double external = 0;  ///< work of impulses and loads received, and of rigid planes on particles (never positive)
+  double received = 0;  ///< work of the impulses that others gave: water, across the interface
+  double external = 0;  ///< work of prescribed loads, and of rigid planes on particles (never positive)
   double gravity = 0;   ///< work of gravity
   /// What the time integrator has held back or made, a term of second order in the step that is known exactly: central
   /// differences conserve energy with the product of the two half-step velocities in place of the square of the mean,
@@ -31,10 +33,11 @@ struct BodyLedger {
   double integrator = 0;
   double mass = 0;                       ///< [kg]
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
+  Vec3 impulse = Vec3::Zero();           ///< of prescribed loads and rigid planes [N s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m^2/s]
 
   /// Stays at its first value, but for what finite strain within a step leaves.
-  double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - external - gravity; }
+  double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - received - external - gravity; }
 };
 
 /// A material point of a body, found once and read at any time: means of what carries the body, by weights whose sum is 1.
@@ -98,6 +101,9 @@ class DeformableBody {
   /// Where the point of the surface is [m], whenever asked, that lies nearest to a place at the start; empty where none lies
   /// within `reach` [m]. Valid as long as the body is. Here: on the wet faces.
   virtual std::function<Vec3()> follow_surface(const Vec3& reference_position, double reach) const;
+
+  /// What the next step goes on from, and what others read until then.
+  virtual void visit_state(StateVisitor& state) = 0;
 
   virtual BodyLedger ledger() const = 0;
   virtual std::span<const Vec3> positions() const = 0;     ///< of nodes or particles [m]

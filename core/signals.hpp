@@ -21,8 +21,8 @@ inline EndSignal end_signal(int number) {
   return {number, "a signal", true};
 }
 
-/// Has `handler` called for each of them; where `second_kills` a second one that insists kills instead. A SIGHUP that nohup has had
-/// ignored stays so.
+/// Has `handler` called for each of them; where `second_kills` a second one that insists kills instead. A SIGHUP that nohup has
+/// had ignored stays so.
 inline void catch_end_signals(void (*handler)(int), bool second_kills) {
   for (const EndSignal& signal : end_signals) {
     struct sigaction action {};

@@ -351,6 +351,77 @@ void Lagrangian1D::advance(double t_end) {
   }
 }
 
+bool Lagrangian1D::still_burns(int layer) const {
+  const auto& burn = layers_[layer].burn;
+  if (!burn) return false;
+  const Block& block = blocks_[layer];
+  return std::min(burn->fraction(Vec3(start_middle_[block.begin], 0.0, 0.0), time_, 1.0),
+                  burn->fraction(Vec3(start_middle_[block.end - 1], 0.0, 0.0), time_, 1.0)) < 1.0;
+}
+
+double Lagrangian1D::add_to_node(int node, double mass, double velocity) {
+  double &all = node_mass_[node], &u = u_[node];
+  const bool held = (node == 0 && inner_ == Boundary::rigid) || (node == cells() && outer_ == Boundary::rigid);
+  const double lost = held ? 0.5 * mass * velocity * velocity : 0.5 * mass * all / (mass + all) * (velocity - u) * (velocity - u);
+  if (!held) u = (all * u + mass * velocity) / (all + mass);
+  all += mass;
+  return lost;
+}
+
+void Lagrangian1D::coarsen(double width) {
+  const int n = cells();
+  std::vector<int> first;  // old cell with which a new one begins
+  for (int i = 0; i < n;) {
+    first.push_back(i);
+    const bool pair =
+        i + 3 < active_ && cell_layer_[i] == cell_layer_[i + 1] && r_[i + 2] - r_[i] <= width && !still_burns(cell_layer_[i]);
+    i += pair ? 2 : 1;
+  }
+  const int left = static_cast<int>(first.size());
+  if (left == n) return;
+  first.push_back(n);
+  for (int k = 0; k < left; ++k) {
+    const int i = first[k];
+    double mass = cell_mass_[i], energy = mass * e_[i], volume = start_volume_[i];
+    if (first[k + 1] == i + 2) {
+      const double other = cell_mass_[i + 1];
+      energy += other * e_[i + 1] + add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
+      mass += other;
+      volume += start_volume_[i + 1];
+    }
+    cell_mass_[k] = mass;
+    start_volume_[k] = volume;
+    start_density_[k] = first[k + 1] == i + 2 ? mass / volume : start_density_[i];
+    start_middle_[k] = start_middle_[i];
+    cell_layer_[k] = cell_layer_[i];
+    e_[k] = energy / mass;
+  }
+  for (int k = 0; k <= left; ++k) {
+    r_[k] = r_[first[k]];
+    u_[k] = u_[first[k]];
+    node_mass_[k] = node_mass_[first[k]];
+  }
+  const auto new_index = [&](int old) { return int(std::lower_bound(first.begin(), first.end(), old) - first.begin()); };
+  active_ = new_index(active_);
+  for (Block& block : blocks_) {
+    block.begin = new_index(block.begin);
+    block.end = new_index(block.end);
+  }
+  for (auto* field :
+       {&cell_mass_, &start_volume_, &start_density_, &start_middle_, &e_, &rho_, &p_, &q_, &c_, &viscous_sound_, &slope_})
+    field->resize(left);
+  cell_layer_.resize(left);
+  for (auto* field : {&r_, &u_, &node_mass_, &area_}) field->resize(left + 1);
+  for (int k = 0; k < left; ++k) rho_[k] = start_density_[k] * (start_volume_[k] / (volume_to(r_[k + 1]) - volume_to(r_[k])));
+  pressures(left, time_, r_, u_, rho_, e_, p_, q_);
+  r_new_ = r_;
+  u_new_ = u_;
+  rho_new_ = rho_;
+  e_new_ = e_;
+  p_new_ = p_;
+  q_new_ = q_;
+}
+
 double Lagrangian1D::interface_radius(int layer) const { return r_.at(blocks_.at(layer).end); }
 
 double Lagrangian1D::kinetic_energy() const {

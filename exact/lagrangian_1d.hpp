@@ -108,6 +108,12 @@ class Lagrangian1D {
   /// (core/errors.hpp) naming cell and time when a cell turns inside out or a state is not finite.
   void advance(double t_end);
 
+  /// Merges neighbouring cells of a layer where the two together are no wider than `width` [m]: an outgoing wave grows longer and
+  /// asks for less. Mass, momentum (but at a rigid end) and the sum of kinetic and internal energy stay what they are; what the
+  /// node between two cells had of motion beyond its neighbours becomes their heat. Cells that nothing has reached, and layers
+  /// that still burn, are left alone.
+  void coarsen(double width);
+
   double time() const { return time_; }
   long steps() const { return steps_; }
   int dimension() const { return dimension_; }
@@ -164,6 +170,9 @@ class Lagrangian1D {
   double stable_step() const;
   void step(double dt);
   void update_active();
+  bool still_burns(int layer) const;
+  /// Adds a mass [kg] of that velocity to a node; returns the kinetic energy [J] that is lost.
+  double add_to_node(int node, double mass, double velocity);
 
   int dimension_;
   double area_factor_;  // area of a unit radius: 1, 2 pi, 4 pi

@@ -1,7 +1,11 @@
 #include "fem_structure/element_set.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace undex::fem {
@@ -11,6 +15,24 @@ namespace {
 constexpr std::size_t worth_threads = 512;
 // A cell that has strained by this much gets its highest frequency anew.
 constexpr double frequency_strain = 0.01;
+
+// A step may close a cell by this much.
+constexpr double most_closing = 0.05;
+
+/// Rate of volume change [1/s] at a cell's middle: the trace of the velocity's gradient there.
+double expansion_rate(const std::array<int, 8>& cell, std::span<const Vec3> x, std::span<const Vec3> v) {
+  constexpr bool high[3][8] = {{0, 1, 1, 0, 0, 1, 1, 0}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};  // VTK's order
+  Mat3 tangents = Mat3::Zero(), slopes = Mat3::Zero();  // of place and velocity, along the unit coordinates
+  for (int node = 0; node < 8; ++node)
+    for (int d = 0; d < 3; ++d) {
+      const double sign = high[d][node] ? 0.25 : -0.25;
+      tangents.col(d) += sign * x[cell[node]];
+      slopes.col(d) += sign * v[cell[node]];
+    }
+  double rate = 0.0;
+  for (int d = 0; d < 3; ++d) rate += tangents.col((d + 1) % 3).cross(tangents.col((d + 2) % 3)).dot(slopes.col(d));
+  return rate / tangents.determinant();
+}
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -154,9 +176,27 @@ void ElementSet::find_frequency(std::size_t c, const CellVectors& x, Moduli modu
 void ElementSet::set_critical_step(std::size_t c, double sound, double bulk) {
   const double stiffening = std::max(1.0, std::sqrt(bulk / frequency_bulk_[c]));
   const double frequency = frequency_[c] * stiffening * (1.0 + strain_since_[c]);
-  const double length = 2.0 * sound / frequency_[c];
-  const double damping = linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c] / sound;
-  critical_step_[c] = 2.0 / frequency * (std::sqrt(1.0 + damping * damping) - damping);
+  critical_step_[c] = 2.0 / frequency * damped_share(c, compression_rate_[c]);
+}
+
+double ElementSet::damped_share(std::size_t c, double compression_rate) const {
+  const double length_over_sound = 2.0 / frequency_[c];
+  const double damping = linear_viscosity_ + quadratic_viscosity_ * quadratic_viscosity_ * length_over_sound * compression_rate;
+  return std::sqrt(1.0 + damping * damping) - damping;
+}
+
+double ElementSet::coming_step(std::span<const Vec3> x, std::span<const Vec3> v) const {
+  double least = std::numeric_limits<double>::infinity();
+#pragma omp parallel for schedule(static) reduction(min : least) if (cells_.size() > worth_threads)
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double rate = -expansion_rate(cells_[c], x, v);
+    least = std::min(least, critical_step_[c]);
+    if (rate <= 0.0) continue;
+    least = std::min(least, most_closing / rate);
+    if (rate > compression_rate_[c])
+      least = std::min(least, critical_step_[c] * damped_share(c, rate) / damped_share(c, compression_rate_[c]));
+  }
+  return least;
 }
 
 double ElementSet::critical_step() const { return *std::min_element(critical_step_.begin(), critical_step_.end()); }
@@ -168,6 +208,18 @@ std::size_t ElementSet::critical_cell() const {
 double ElementSet::elastic_energy() const { return sum(elastic_); }
 double ElementSet::plastic_work() const { return sum(plastic_); }
 double ElementSet::viscous_work() const { return sum(viscous_); }
+
+void ElementSet::visit_state(StateVisitor& state) {
+  state("elastic energy", elastic_);
+  state("plastic work", plastic_);
+  state("viscous work", viscous_);
+  state("frequency", frequency_);
+  state("bulk modulus of the frequency", frequency_bulk_);
+  state("strain since the frequency", strain_since_);
+  state("compression rate", compression_rate_);
+  state("critical step", critical_step_);
+  state("mode", mode_);
+}
 
 std::size_t ElementSet::shared_memory_bytes() const {
   std::size_t values = 0;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/state.hpp"
 #include "core/vector.hpp"
 #include "fem_structure/grid.hpp"
 #include "materials/solid.hpp"
@@ -28,6 +29,9 @@ class ElementSet {
   /// by warm power iterations that restart when the cell has strained by a per cent.
   double critical_step() const;
   std::size_t critical_cell() const;
+  /// The least of them [s] once the cells close as nodes at x [m] with velocities v [m/s] make them: bulk viscosity shortens the
+  /// step in which it begins to act, which critical_step() cannot know. And none in which a cell closes by more than a tenth.
+  double coming_step(std::span<const Vec3> x, std::span<const Vec3> v) const;
 
   std::size_t cell_count() const { return cells_.size(); }
   const std::vector<double>& nodal_mass() const { return nodal_mass_; }  ///< lumped [kg]
@@ -50,6 +54,7 @@ class ElementSet {
   /// Share of the fracture strain spent, 1: failed; 0 where the material cannot fail.
   virtual double damage(std::size_t cell, int q) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  virtual void visit_state(StateVisitor& state);
 
   /// Internal force [N] of a small displacement u [m] from positions x by the elastic law alone: the linear stiffness,
   /// for the highest frequency and for tests.
@@ -88,6 +93,8 @@ class ElementSet {
  private:
   void find_frequency(std::size_t cell, const CellVectors& x, Moduli moduli, int most_iterations);
   void set_critical_step(std::size_t cell, double sound, double bulk);
+  /// Share that bulk viscosity leaves of the undamped stable step, at a rate of compression [1/s]: sqrt(1 + xi^2) - xi.
+  double damped_share(std::size_t cell, double compression_rate) const;
   void gather(const std::vector<double>& corner_force, std::span<Vec3> force) const;
 
   std::vector<std::size_t> corners_begin_;  ///< per node, into corners_

@@ -56,6 +56,7 @@ struct Settings {
   std::vector<RigidPlane> planes;
   Vec3 initial_velocity = Vec3::Zero();  ///< [m/s]
   Vec3 gravity = Vec3::Zero();           ///< [m/s^2]
+  double start_time = 0;                 ///< [s] when it begins to move
   double courant = 0.8;                  ///< share of the computed stable step that is used, in (0, 1]
   double linear_viscosity = 0.06;        ///< bulk viscosity against ringing of shocks, on compression only
   double quadratic_viscosity = 1.2;

@@ -171,12 +171,12 @@ struct Structure::Implementation {
   std::vector<Vec3> position, velocity;
   double time = 0.0, last_step = 0.0;
   long steps = 0;
-  double external_work = 0.0, integrator_jumps = 0.0, integrator_held = 0.0, first_critical_step = 0.0;
+  double received_work = 0.0, load_work = 0.0, integrator_jumps = 0.0, integrator_held = 0.0, first_critical_step = 0.0;
   double impact_loss = 0.0;
-  Vec3 plane_impulse = Vec3::Zero();
+  Vec3 plane_impulse = Vec3::Zero(), load_impulse = Vec3::Zero();
 
   // What follows from the state, and scratch, per node.
-  std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force;
+  std::vector<Vec3> acceleration, increment, internal_force, load_force, impulse_force, coming_velocity;
   std::vector<Vec3> inverse_mass;  ///< zero where a component is held
 
   PassTimers timers;
@@ -193,6 +193,7 @@ struct Structure::Implementation {
         elements(make_elements(settings, grid)) {
     const std::size_t n = grid.nodes.size();
     position = grid.nodes;
+    time = settings.start_time;
     inverse_mass.resize(n);
     for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements->nodal_mass()[i]);
     double extent = 0.0;
@@ -209,7 +210,8 @@ struct Structure::Implementation {
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
-    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force}) field->assign(n, Vec3::Zero());
+    for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force, &coming_velocity})
+      field->assign(n, Vec3::Zero());
     take_wet_surface();
     first_critical_step = elements->critical_step();
     find_load_force();
@@ -275,11 +277,13 @@ struct Structure::Implementation {
     return dt * dt / 8.0 * sum;
   }
 
-  double load_work() const {
-    double work = 0.0;
-    if (!settings.loads.empty())
-      for (std::size_t i = 0; i < load_force.size(); ++i) work += 0.5 * load_force[i].dot(increment[i]);
-    return work;
+  /// Impulse and work of the loads over half of a step of dt [s].
+  void book_loads(double dt) {
+    if (settings.loads.empty()) return;
+    for (std::size_t i = 0; i < load_force.size(); ++i) {
+      load_impulse += 0.5 * dt * load_force[i];
+      load_work += 0.5 * load_force[i].dot(increment[i]);
+    }
   }
 
   /// Nodes that would end the step of dt [s] beyond a rigid plane end it on the plane: a push, never a pull. A node that
@@ -311,19 +315,41 @@ struct Structure::Implementation {
       increment[i] = dt * velocity[i];
       position[i] += increment[i];
     }
-    external_work += load_work();
+    book_loads(dt);
     const long failed = elements->advance(position, increment, dt, internal_force);
     last_step = dt;
     if (failed >= 0) take_back_and_stop(failed, dt);
     time += dt;
     ++steps;
     find_load_force();
-    external_work += load_work();
-    for (int node : wet_nodes) external_work += impulse_force[node].dot(increment[node]);
+    book_loads(dt);
+    for (int node : wet_nodes) received_work += impulse_force[node].dot(increment[node]);
     find_acceleration();
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
     integrator_held = held_back(dt);
+  }
+
+  void visit_state(StateVisitor& state) {
+    state("time", time);
+    state("steps", steps);
+    state("last step", last_step);
+    state("received work", received_work);
+    state("load work", load_work);
+    state("load impulse", load_impulse);
+    state("integrator jumps", integrator_jumps);
+    state("integrator held", integrator_held);
+    state("impact loss", impact_loss);
+    state("plane impulse", plane_impulse);
+    state("position", position);
+    state("velocity", velocity);
+    state("acceleration", acceleration);
+    state("internal force", internal_force);
+    state("load force", load_force);
+    state("impulse force", impulse_force);
+    state.part("elements", [&] { elements->visit_state(state); });
+    state("timers", timers);
+    if (state.restores()) show_wet_motion();
   }
 
   Vec3 center(std::size_t cell) const {
@@ -358,6 +384,27 @@ struct Structure::Implementation {
 
   double stable_step() const { return settings.courant * elements->critical_step(); }
 
+  /// Velocities [m/s] in the middle of a step of dt [s]: kicked, and met by rigid planes.
+  void find_coming_velocity(double dt) {
+    const long n = static_cast<long>(position.size());
+#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+    for (long i = 0; i < n; ++i) {
+      coming_velocity[i] = velocity[i] + 0.5 * dt * acceleration[i];
+      for (const RigidPlane& plane : settings.planes)
+        if (depth(plane, position[i] + dt * coming_velocity[i]) > 0.0 && inverse_mass[i][plane.axis] != 0.0)
+          coming_velocity[i][plane.axis] = (plane.position - position[i][plane.axis]) / dt;
+    }
+  }
+
+  /// The stable step; or, where cells are about to close so much faster than they did (an impact, a load that jumps) that it
+  /// would not be stable, the one that then is.
+  double longest_step() {
+    const double stable = stable_step();
+    find_coming_velocity(stable);
+    const double coming = elements->coming_step(position, coming_velocity);
+    return coming < stable ? settings.courant * coming : stable;
+  }
+
   void advance(double t_end, std::span<const Vec3> impulse) {
     const auto timer = timers.measure("structure");
     if (!impulse.empty() && impulse.size() != wet_nodes.size())
@@ -373,7 +420,7 @@ struct Structure::Implementation {
       impulse_force[wet_nodes[i]] = impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(impulse[i] / interval);
     find_acceleration();
     for (;;) {
-      const double longest = stable_step();
+      const double longest = longest_step();
       if (!(longest > 1e-4 * settings.courant * first_critical_step))
         throw NumericalStop(
             description_of(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one"));
@@ -396,7 +443,7 @@ std::size_t Structure::cell_count() const { return self_->grid.cells.size(); }
 std::size_t Structure::node_count() const { return self_->grid.nodes.size(); }
 std::size_t Structure::memory_bytes() const {
   const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
-  std::size_t bytes = self_->elements->memory_bytes() + 9 * nodes * sizeof(Vec3);
+  std::size_t bytes = self_->elements->memory_bytes() + 10 * nodes * sizeof(Vec3);
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
   return bytes + wet * (4 * sizeof(Vec3) + sizeof(int) + sizeof(double)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }
@@ -413,6 +460,8 @@ double Structure::stable_step() const { return self_->stable_step(); }
 std::string Structure::stable_step_owner() const { return self_->owner(); }
 void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
 
+void Structure::visit_state(StateVisitor& state) { self_->visit_state(state); }
+
 BodyLedger Structure::ledger() const {
   BodyLedger ledger;
   const auto& mass = self_->elements->nodal_mass();
@@ -428,7 +477,9 @@ BodyLedger Structure::ledger() const {
   ledger.elastic = self_->elements->elastic_energy();
   ledger.plastic = self_->elements->plastic_work();
   ledger.viscous = self_->elements->viscous_work();
-  ledger.external = self_->external_work;
+  ledger.received = self_->received_work;
+  ledger.external = self_->load_work;
+  ledger.impulse = self_->load_impulse + self_->plane_impulse;
   ledger.impact = self_->impact_loss;
   return ledger;
 }

@@ -14,7 +14,8 @@
 namespace undex::judge {
 
 struct Verdict {
-  output::NamedNumbers metrics;                        ///< NaN: did not happen, or was not reached
+  output::NamedNumbers metrics;                        ///< NaN: has no value
+  output::Reasons missing = {};                        ///< why, of every metric that is NaN
   std::map<std::string, output::Samples> tables = {};  ///< further results, by the names of their files
 };
 
@@ -22,7 +23,9 @@ struct Comparison {
   scene::ComparisonKind kind;  ///< its name, its keys, its check of a scene
   const char* title = "";      ///< what is compared
   bool beside_table = true;    ///< shown beside the table that comparison.reference names
-  const char* history = "";    ///< name of a reference history in that table's folder
+  /// Why a metric has no value, where the comparison does not say more itself.
+  const char* without_value = "it did not happen before the run's end, or the probes do not show it";
+  const char* history = "";  ///< name of a reference history in that table's folder
   /// Which fields of the run's last state it needs (output/evidence.hpp); null: none.
   std::vector<std::string> (*last_fields)(const scene::Scene& scene) = nullptr;
   /// The scene is the one given, before a start has changed it. Throws std::invalid_argument where the histories are no numbers.

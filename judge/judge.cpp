@@ -1,5 +1,7 @@
 #include "judge/judge.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -33,6 +35,20 @@ Reference reference_of(const scene::Scene& scene, const Comparison* comparison, 
   return reference;
 }
 
+/// A reason for every metric that has no value, in the metrics' order.
+void give_reasons(Verdict& verdict, const char* otherwise) {
+  output::Reasons all;
+  for (const auto& one : verdict.missing)
+    if (one.first == "all") all.push_back(one);
+  for (const auto& [name, value] : verdict.metrics) {
+    if (!std::isnan(value)) continue;
+    const auto given =
+        std::find_if(verdict.missing.begin(), verdict.missing.end(), [&](const auto& one) { return one.first == name; });
+    all.emplace_back(name, given == verdict.missing.end() ? otherwise : given->second);
+  }
+  verdict.missing = std::move(all);
+}
+
 }  // namespace
 
 Judge::Judge(const scene::Scene& scene, const Reference& instead)
@@ -45,9 +61,11 @@ std::vector<std::string> Judge::last_fields() const {
 Verdict Judge::verdict(const output::Evidence& evidence) const {
   if (comparison_ == nullptr) return {};
   try {
-    return comparison_->judge(scene_, evidence, reference_);
-  } catch (const std::invalid_argument&) {
-    return {};  // histories that end in values that are no numbers have no results
+    Verdict verdict = comparison_->judge(scene_, evidence, reference_);
+    give_reasons(verdict, comparison_->without_value);
+    return verdict;
+  } catch (const std::invalid_argument& mistake) {
+    return {.metrics = {}, .missing = {{"all", mistake.what()}}};
   }
 }
 
@@ -63,6 +81,19 @@ std::string metrics_text(const output::NamedNumbers& metrics) {
     std::snprintf(line, sizeof line, "%-34s %.5g\n", name.c_str(), value);
     text += line;
   }
+  return text;
+}
+
+std::string missing_text(const output::Reasons& missing) {
+  std::vector<std::pair<std::string, std::string>> lines;  // reason, and the metrics that it is the reason of
+  for (const auto& [name, reason] : missing) {
+    const auto same = [&](const auto& line) { return line.first == reason; };
+    const auto line = std::find_if(lines.begin(), lines.end(), same);
+    if (line == lines.end()) lines.emplace_back(reason, name);
+    else line->second += ", " + name;
+  }
+  std::string text;
+  for (const auto& [reason, names] : lines) text += "no value: " + names + ": " + reason + "\n";
   return text;
 }
 

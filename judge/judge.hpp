@@ -17,7 +17,8 @@ class Judge {
 
   /// What of the run's last state its evidence must hold.
   std::vector<std::string> last_fields() const;
-  /// Empty where the scene has no comparison, or a history ends in values that are no numbers.
+  /// Empty where the scene has no comparison. Every metric that is NaN has its reason; where a history ends in values that are no
+  /// numbers there are no metrics and one reason, named "all".
   Verdict verdict(const output::Evidence& evidence) const;
   /// Metrics beside the reference table as text; a profile's alone; empty without a table.
   std::string table(const output::NamedNumbers& metrics) const;
@@ -33,5 +34,8 @@ void write_tables(const std::filesystem::path& folder, const Verdict& verdict);
 
 /// A line a metric.
 std::string metrics_text(const output::NamedNumbers& metrics);
+
+/// Which metrics have no value and why, a line a reason; empty where all have one.
+std::string missing_text(const output::Reasons& missing);
 
 }  // namespace undex::judge

@@ -298,7 +298,7 @@ std::vector<std::string> last_fields(const scene::Scene&) {
 }
 
 Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
-  if (!(evidence.time > 0)) return {};
+  if (!(evidence.time > 0)) return {.metrics = {}, .missing = {{"all", "the run has taken no step"}}};
   const ProfileProblem problem = profile_problem(scene.fluid, *scene.comparison.solution);
   Case c{.scene = scene,
          .problem = problem,

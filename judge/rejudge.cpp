@@ -59,11 +59,11 @@ void rejudge(const RejudgeOptions& options) {
   const Judge judge = as_usage([&] { return Judge(judged.scene, instead); });
   const Verdict verdict = as_usage([&] { return judge.verdict(judged.evidence); });
   write_tables(run, verdict);
-  output::replace_metrics(run / "summary.json", verdict.metrics);
+  output::replace_metrics(run / "summary.json", verdict.metrics, verdict.missing);
   if (options.quiet) return;
   const std::string table = judge.table(verdict.metrics);
-  std::printf("%s: %s\n%s", judged.scene.name.c_str(), comparison->title,
-              (table.empty() ? metrics_text(verdict.metrics) : table).c_str());
+  std::printf("%s: %s\n%s%s", judged.scene.name.c_str(), comparison->title,
+              (table.empty() ? metrics_text(verdict.metrics) : table).c_str(), missing_text(verdict.missing).c_str());
 }
 
 }  // namespace undex::judge

@@ -45,16 +45,24 @@ double fall_through(const Series& series, double level, double from) {
   return nan;
 }
 
-double fall_to_zero(const Series& p, double peak) {
-  const double reached = first_rise(p, peak, -forever, forever);
-  if (std::isnan(reached)) return nan;
-  const double low = fall_through(p, 0.05 * peak, reached);
-  if (std::isnan(low)) return nan;
+/// When the pressure is gone [s], or why that is not known.
+struct Fall {
+  double t = nan;
+  const char* unknown = "";
+};
+
+Fall fall_to_zero(const Series& p, double peak) {
+  const auto reached = std::find_if(p.y.begin(), p.y.end(), [&](double y) { return y >= peak; });
+  if (reached == p.y.end()) return {.unknown = "the pressure at the plate has not reached the wave's peak before the end"};
+  const double from = p.t[reached - p.y.begin()];
+  const double low = fall_through(p, 0.05 * peak, from);
+  if (std::isnan(low))
+    return {.unknown = "the pressure at the plate has not fallen to a twentieth of the wave's peak before the end"};
   // The last fall before that, so that an oscillation on the way does not stretch the line.
   double high = nan;
-  for (double at = fall_through(p, 0.1 * peak, reached); at <= low; at = fall_through(p, 0.1 * peak, std::nextafter(at, forever)))
+  for (double at = fall_through(p, 0.1 * peak, from); at <= low; at = fall_through(p, 0.1 * peak, std::nextafter(at, forever)))
     high = at;
-  return low + (low - high);
+  return {.t = std::isnan(high) ? low : low + (low - high)};
 }
 
 /// The scene along the wave's way, with the plate's wet face at zero and the water below it.
@@ -102,10 +110,22 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
       .peak = given.peak, .decay = given.decay, .impedance = wave.impedance(), .plate_mass = line.plate_mass};
   metrics.emplace_back("cavitation_acoustic_s", theory.cavitation_time() - line.front / wave.rest_sound());
   metrics.emplace_back("impulse_acoustic_pa_s", theory.impulse());
+  Verdict verdict;
+  for (const std::string label : {"", "_1d"}) {
+    const Series& pressure = (label.empty() ? run : reference).pressure;
+    std::string why = fall_to_zero(pressure, given.peak).unknown;
+    if (why.empty()) continue;
+    if (pressure.empty()) why = "the scene has no wall probe with the pressure, at the plate's wet face";
+    if (!label.empty()) why = "of the one-dimensional solution: " + why;
+    for (const std::string& name : {"cavitation" + label + "_s", "impulse" + label + "_pa_s", "end_impulse" + label + "_pa_s"})
+      verdict.missing.emplace_back(name, why);
+    for (const char* name : {"cavitation_error", "impulse_error", "end_impulse_error"}) verdict.missing.emplace_back(name, why);
+  }
   const char* const names[] = {"cavitation_error", "impulse_error", "end_impulse_error"};
   for (int k = 0; k < 3; ++k) metrics.emplace_back(names[k], own[k].second / exact[k].second - 1.0);
   metrics.emplace_back("velocity_l1", output::difference_norms(run.velocity, reference.velocity, 0.0, end).l1);
-  return {.metrics = std::move(metrics)};
+  verdict.metrics = std::move(metrics);
+  return verdict;
 }
 
 }  // namespace
@@ -114,7 +134,7 @@ NamedNumbers plate_metrics(const PlateHistories& histories, double mass, double 
   require_valid(histories.pressure);
   require_valid(histories.velocity);
   const Series& v = histories.velocity;
-  const double cavitation = fall_to_zero(histories.pressure, peak);
+  const double cavitation = fall_to_zero(histories.pressure, peak).t;
   const bool reached = !std::isnan(cavitation) && !v.empty() && v.t.back() > cavitation;
   return {
       {"cavitation" + label + "_s", cavitation},

@@ -70,18 +70,25 @@ void put_in_place(const std::filesystem::path& temporary, const std::filesystem:
     unlink(temporary.c_str());
     throw_file_error("write", path, error);
   }
+  // The folder, too, must know of it before the power fails; where that cannot be asked for, it comes later by itself.
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); descriptor >= 0) {
+    fsync(descriptor);
+    close(descriptor);
+  }
 }
 
-std::filesystem::path write_temporary(const std::filesystem::path& path, const std::string& text) {
+std::filesystem::path write_temporary(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
   const std::filesystem::path temporary = temporary_name(path);
   const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw_file_error("write", path, errno);
   int error = 0;
-  for (std::size_t done = 0; done < text.size() && error == 0;) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written >= 0) done += static_cast<std::size_t>(written);
-    else if (errno != EINTR) error = errno;
-  }
+  for (std::string_view text : parts)
+    while (!text.empty() && error == 0) {
+      const ssize_t written = write(file, text.data(), text.size());
+      if (written >= 0) text.remove_prefix(static_cast<std::size_t>(written));
+      else if (errno != EINTR) error = errno;
+    }
   if (error == 0 && fsync(file) != 0 && errno != EINVAL && errno != ENOSYS) error = errno;
   if (close(file) != 0 && error == 0) error = errno;
   if (error != 0) {
@@ -92,7 +99,7 @@ std::filesystem::path write_temporary(const std::filesystem::path& path, const s
 }
 
 void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
-  put_in_place(write_temporary(path, text), path);
+  put_in_place(write_temporary(path, {text}), path);
 }
 
 namespace {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace undex::output {
 
@@ -20,8 +22,9 @@ std::optional<std::string> text_of(const std::filesystem::path& path);
 /// part. Throws FileError.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// The first half of it: the text is on disk under temporary_name(path), which is returned, and `path` is as it was.
-std::filesystem::path write_temporary(const std::filesystem::path& path, const std::string& text);
+/// The first half of it, of bytes that lie in several places: they are on disk one after another under temporary_name(path),
+/// which is returned, and `path` is as it was.
+std::filesystem::path write_temporary(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 /// The second half: renames a finished temporary file to its place. Throws FileError.
 void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& path);

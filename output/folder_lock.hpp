@@ -10,8 +10,8 @@ namespace undex::output {
 /// The name of its file in the folder. A folder in which there is nothing else counts as empty.
 inline constexpr const char* folder_lock_name = ".lock";
 
-/// Held as long as this process works in the folder. The kernel lets go of it when the process ends, however it ends, so that what
-/// a killed one leaves behind binds nobody.
+/// Held as long as this process works in the folder. The kernel lets go of it when the process ends, however it ends, so that
+/// what a killed one leaves behind binds nobody.
 class FolderLock {
  public:
   /// Makes the folder where there is none. `who`, such as "undex run", is told to those who come later. Throws UsageError where

@@ -10,10 +10,33 @@
 
 #include "core/errors.hpp"
 #include "output/files.hpp"
+#include "output/samples.hpp"
 
 namespace undex::output {
 
 History::History(std::filesystem::path path, std::vector<Column> columns) : path_(std::move(path)), columns_(columns.size()) {
+  add_header(columns);
+  open_file(O_CREAT | O_TRUNC);
+  flush();
+}
+
+History History::continued(std::filesystem::path path, const Samples& so_far) {
+  History history;
+  history.path_ = std::move(path);
+  history.columns_ = so_far.columns.size();
+  history.add_header(so_far.columns);
+  std::vector<double> row(history.columns_);
+  for (std::size_t r = 0; r < so_far.rows(); ++r) {
+    for (std::size_t c = 0; c < row.size(); ++c) row[c] = so_far.values[c][r];
+    history.add(row);
+  }
+  put_in_place(write_temporary(history.path_, {history.waiting_}), history.path_);
+  history.waiting_.clear();
+  history.open_file(O_APPEND);
+  return history;
+}
+
+void History::add_header(const std::vector<Column>& columns) {
   if (columns.empty()) throw std::invalid_argument("History: no columns for " + path_.string());
   for (const Column& column : columns) {
     if (column.name.empty() || (column.name + column.unit).find_first_of(",\"\n") != std::string::npos)
@@ -21,10 +44,12 @@ History::History(std::filesystem::path path, std::vector<Column> columns) : path
     waiting_ += (waiting_.empty() ? "" : ",") + column.name + " [" + (column.unit.empty() ? "-" : column.unit) + "]";
   }
   waiting_ += '\n';
+}
+
+void History::open_file(int how) {
   // Of a pipe in its place nobody may read: that is an error, not a reason to wait.
-  file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+  file_ = open(path_.c_str(), how | O_WRONLY | O_CLOEXEC | O_NONBLOCK, 0666);
   if (file_ < 0) throw_file_error("write", path_, errno);
-  flush();
 }
 
 History::History(History&& other) noexcept
@@ -46,6 +71,10 @@ void History::append(std::span<const double> row) {
     throw std::invalid_argument("History " + path_.string() + ": " + std::to_string(row.size()) + " values for " +
                                 std::to_string(columns_) + " columns");
   if (file_ < 0) throw std::logic_error("History " + path_.string() + ": written after it was closed");
+  add(row);
+}
+
+void History::add(std::span<const double> row) {
   constexpr std::size_t widest = 40;
   waiting_.reserve(waiting_.size() + widest * row.size());  // where memory is short it ends before the row, not within it
   for (std::size_t i = 0; i < row.size(); ++i) {

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace undex::output {
+
+struct Samples;
 
 /// One column: "pressure" in "Pa". An empty unit means a pure number, written "[-]".
 struct Column {
@@ -20,6 +23,8 @@ class History {
  public:
   /// Creates (or empties) the file and writes the header.
   History(std::filesystem::path path, std::vector<Column> columns);
+  /// A file with these rows, whatever stood there before, to go on from: made aside, so that nothing is lost on the way.
+  static History continued(std::filesystem::path path, const Samples& so_far);
   History(History&& other) noexcept;
   History& operator=(History&&) = delete;
   /// Flushes and closes; a failure here is silent, so call close() where it matters.
@@ -35,6 +40,10 @@ class History {
   std::size_t rows() const { return rows_; }
 
  private:
+  History() = default;
+  void open_file(int how);
+  void add_header(const std::vector<Column>& columns);
+  void add(std::span<const double> row);
   [[noreturn]] void fail(int error);
 
   std::filesystem::path path_;

@@ -113,8 +113,8 @@ void begin_run_folder(const fs::path& folder, const std::string& given, const st
   const fs::path scene = folder / "scene.toml", read = folder / "resolved.toml";
   std::vector<fs::path> temporary;
   try {
-    temporary.push_back(write_temporary(scene, given));
-    temporary.push_back(write_temporary(read, resolved));
+    temporary.push_back(write_temporary(scene, {given}));
+    temporary.push_back(write_temporary(read, {resolved}));
     remove_results(older, folder);
   } catch (...) {
     std::error_code ignored;
@@ -123,6 +123,25 @@ void begin_run_folder(const fs::path& folder, const std::string& given, const st
   }
   put_in_place(temporary[0], scene);
   put_in_place(temporary[1], read);
+}
+
+void continue_run_folder(const fs::path& folder, const std::string& resolved) {
+  if (text_of(folder / "resolved.toml") != resolved) write_text_atomically(folder / "resolved.toml", resolved);
+  std::error_code error;
+  for (const char* name : {"summary.json", "evidence.h5"})
+    if (fs::remove(folder / name, error); error) throw_not_cleared(folder / name, error);
+}
+
+bool is_unfinished_run(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / "resolved.toml", ignored)) return false;
+  if (!fs::exists(folder / "summary.json", ignored)) return true;
+  try {
+    const std::string status = read_summary(folder / "summary.json").status;
+    return status != "done" && status != "stopped";
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 void require_finished_run(const fs::path& path) {

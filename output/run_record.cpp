@@ -23,6 +23,12 @@ nlohmann::ordered_json object(const NamedNumbers& numbers) {
   return result;
 }
 
+void put_metrics(nlohmann::ordered_json& json, const NamedNumbers& metrics, const Reasons& missing) {
+  json["metrics"] = object(metrics);
+  json.erase("missing");
+  for (const auto& [name, reason] : missing) json["missing"][name] = reason;
+}
+
 // The value at `key`, null as NaN; `value` stays as it is where there is no such key, or it holds something else.
 template <class Number>
 void get(const nlohmann::ordered_json& json, const char* key, Number& value) {
@@ -98,15 +104,15 @@ std::string to_json(const RunRecord& record) {
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   json["passes"] = object(record.passes);
-  json["metrics"] = object(record.metrics);
+  put_metrics(json, record.metrics, record.missing);
   return json_text(json);
 }
 
 void write_summary(const std::filesystem::path& path, const RunRecord& record) { write_text_atomically(path, to_json(record)); }
 
-void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics) {
+void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics, const Reasons& missing) {
   nlohmann::ordered_json json = summary_at(path);
-  json["metrics"] = object(metrics);
+  put_metrics(json, metrics, missing);
   write_text_atomically(path, json_text(json));
 }
 
@@ -148,6 +154,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
   record.passes = numbers(json, "passes");
   record.metrics = numbers(json, "metrics");
+  if (const auto found = json.find("missing"); found != json.end() && found->is_object())
+    for (const auto& [name, reason] : found->items())
+      if (reason.is_string()) record.missing.emplace_back(name, reason.get<std::string>());
   return record;
 }
 

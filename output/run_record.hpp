@@ -13,6 +13,9 @@ namespace undex::output {
 /// Named numbers in the order in which they are shown. NaN means "did not happen" and becomes null in JSON.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
+/// Why metrics have no value: a sentence a metric.
+using Reasons = std::vector<std::pair<std::string, std::string>>;
+
 /// The number of that name, or null.
 const double* find_number(const NamedNumbers& numbers, const std::string& name);
 
@@ -41,6 +44,7 @@ struct RunRecord {
   std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
   NamedNumbers passes;                                       ///< seconds per named pass
   NamedNumbers metrics;                                      ///< results of the scene's comparison
+  Reasons missing;                                           ///< why, of each of them that is NaN; left out when empty
 };
 
 /// The record as JSON text, keys in the order above.
@@ -50,7 +54,7 @@ std::string to_json(const RunRecord& record);
 void write_summary(const std::filesystem::path& path, const RunRecord& record);
 
 /// Writes other metrics into a summary.json, atomically; nothing else in it changes. Throws FileError.
-void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics);
+void replace_metrics(const std::filesystem::path& path, const NamedNumbers& metrics, const Reasons& missing = {});
 
 /// Reads a summary.json back. Keys that it does not have keep their defaults (NaN for the errors), null becomes NaN, keys
 /// of a newer program are passed over. Throws FileError when the file cannot be read or is no run's summary.

@@ -21,11 +21,10 @@ class Driver {
   virtual ~Driver() = default;
   /// One step (a coupling window), not beyond `end` [s].
   virtual Step advance(double end) = 0;
-  /// Does water act on a body, so that the body's external work is received from it?
-  virtual bool joins_water_and_body() const { return false; }
   /// What has crossed the wet faces; nothing where nothing is coupled by them.
   virtual std::optional<coupling::InterfaceLedger> interface() const { return std::nullopt; }
   virtual PassTimers timers() const { return {}; }  ///< its own
+  virtual void visit_state(StateVisitor&) {}        ///< its own, beside that of those whom it advances
 };
 
 class WaterAlone : public Driver {
@@ -50,9 +49,9 @@ class Coupled : public Driver {
  public:
   Coupled(sph::Fluid& fluid, DeformableBody& body, const coupling::Settings& settings) : coupler_(fluid, body, settings) {}
   Step advance(double end) override;
-  bool joins_water_and_body() const override { return true; }
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
   PassTimers timers() const override { return coupler_.timers(); }
+  void visit_state(StateVisitor& state) override { coupler_.visit_state(state); }
 
  private:
   coupling::Coupler coupler_;
@@ -63,7 +62,6 @@ class OneSystem : public Driver {
   OneSystem(sph::Fluid& fluid, solid::Solids& solids, const coupling::Settings& settings)
       : system_(fluid, solids, settings.free_slip) {}
   Step advance(double end) override;
-  bool joins_water_and_body() const override { return true; }
 
  private:
   coupling::ParticleSystem system_;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,20 +20,25 @@ namespace undex::run {
 /// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
 class EnergyHistory {
  public:
-  EnergyHistory(const std::filesystem::path& folder, bool gravity);
+  EnergyHistory(const std::filesystem::path& folder, bool gravity, bool goes_on);
+  void visit_state(StateVisitor& state);
   void sample(const Simulation& simulation);
-  void flush() { history_.flush(); }
+  void flush() { history_->flush(); }
   const output::Samples& samples() const { return samples_; }
 
  private:
   bool gravity_;
+  std::filesystem::path path_;
   output::Samples samples_;
-  output::History history_;
+  std::optional<output::History> history_;
 };
 
 class Observer {
  public:
-  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
+  /// `goes_on`: the folder holds what was observed before, and visit_state will restore how far.
+  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
+  /// All that has been observed. Restored, the files of the folder are cut back to it.
+  void visit_state(StateVisitor& state);
   /// The state before the first step.
   void begin(const Simulation& simulation);
   /// A state after a step.
@@ -49,6 +55,7 @@ class Observer {
 
  private:
   const scene::Scene& scene_;
+  const Simulation& simulation_;
   Probes probes_;
   EnergyHistory energy_;
   Snapshots snapshots_;

@@ -12,13 +12,14 @@
 #include "core/last_words.hpp"
 #include "core/signals.hpp"
 #include "output/run_folder.hpp"
+#include "run/checkpoints.hpp"
 #include "run/observer.hpp"
 #include "run/plane_wave_start.hpp"
 #include "run/progress.hpp"
 #include "run/record.hpp"
+#include "run/room.hpp"
 #include "run/simulation.hpp"
 #include "run/spherical_start.hpp"
-#include "sph_fluid/walls/lattice_warnings.hpp"
 
 namespace undex::run {
 namespace {
@@ -38,9 +39,9 @@ EnergyBalance expect_numbers(const Simulation& simulation) {
   throw NumericalStop(text);
 }
 
-/// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second time in a
-/// row: what goes wrong within a step is caught in the next, and named more closely; and where loads set in on a body at rest, the
-/// work of the first step is behind the energy by all of it.
+/// A run whose energy is off by half computes something else than the scene. Throws NumericalStop, when it is so a second time
+/// in a row: what goes wrong within a step is caught in the next, and named more closely; and where loads set in on a body at
+/// rest, the work of the first step is behind the energy by all of it.
 void expect_balance(const EnergyBalance& energy, const Simulation& simulation, bool& was_off) {
   constexpr double most = 0.5;
   const bool off = std::abs(energy.error()) > most, again = off && was_off;
@@ -54,10 +55,27 @@ void expect_balance(const EnergyBalance& energy, const Simulation& simulation, b
   throw NumericalStop(text);
 }
 
+/// Says every few seconds how far the one-dimensional flow has come.
+class StartNews {
+ public:
+  explicit StartNews(int verbosity) : quiet_(verbosity < 0) {}
+  void operator()(double time, double front, double obstacle) {
+    if (quiet_ || since_.wall() < next_) return;
+    next_ = since_.wall() + 2.0;
+    std::printf("spherical start: %.4g us, front at %.4g mm of %.4g mm\n", time * 1e6, front * 1e3, obstacle * 1e3);
+    std::fflush(stdout);
+  }
+
+ private:
+  bool quiet_;
+  Stopwatch since_;
+  double next_ = 2.0;  // [s]
+};
+
 /// Lays the scene's start on its bodies, and says so.
 void begin(scene::Scene& scene, int verbosity) {
   std::string report;
-  if (scene.start.kind == scene::Start::Kind::spherical) report = begin_spherically(scene);
+  if (scene.start.kind == scene::Start::Kind::spherical) report = begin_spherically(scene, StartNews(verbosity));
   if (scene.start.kind == scene::Start::Kind::plane_wave) report = begin_with_plane_wave(scene);
   if (!report.empty() && verbosity >= 0) std::printf("%s\n", report.c_str());
 }
@@ -77,9 +95,8 @@ struct Course {
 };
 
 /// Steps to the end of the scene, or until a signal. Throws NumericalStop, and what files and memory throw.
-End advance(const scene::Scene& scene, Simulation& simulation, Observer& observer, Progress& progress, Course& course) {
-  expect_numbers(simulation);
-  observer.begin(simulation);
+End advance(const scene::Scene& scene, Simulation& simulation, Observer& observer, Checkpoints& checkpoints, Progress& progress,
+            Course& course) {
   while (simulation.time() < scene.end_time * (1 - 1e-12)) {
     course.step_done = false;
     simulation.advance(std::min(scene.end_time, observer.next_snapshot()));
@@ -90,14 +107,15 @@ End advance(const scene::Scene& scene, Simulation& simulation, Observer& observe
     course.time = simulation.time();
     course.steps = simulation.steps();
     progress.report(simulation);
+    checkpoints.write_if_due();
     if (signal_received != 0)
       return {.status = "interrupted", .message = end_signal(signal_received).name, .signal = signal_received};
   }
   return {.status = "done", .message = ""};
 }
 
-/// The energy was off after the last step, for the first time, and no step comes that would tell what that means: one more is taken.
-/// Throws NumericalStop. Nothing may be observed of the simulation after it.
+/// The energy was off after the last step, for the first time, and no step comes that would tell what that means: one more is
+/// taken. Throws NumericalStop. Nothing may be observed of the simulation after it.
 void look_beyond_the_end(Simulation& simulation, Course& course) {
   course.step_done = false;
   simulation.advance(simulation.time() + simulation.last_step_size());
@@ -157,24 +175,34 @@ void attempt(const Write& write, std::string& not_saved) {
 }  // namespace
 
 Result compute(const scene::Scene& given, const RunOptions& options) {
-  const Stopwatch since;
+  Stopwatch since;
   scene::Scene scene = given;
   if (options.threads > 0) scene.fluid.numerics.threads = options.threads;
   const std::string resolved = scene::to_toml(scene);
-  begin(scene, options.verbosity);
+  const bool goes_on = options.checkpoint != nullptr;
+  expect_room(scene);
+  begin(scene, goes_on ? -1 : options.verbosity);
   Simulation simulation(scene);
-  const std::vector<std::string> warnings = sph::lattice_warnings(scene.fluid);
+  const std::vector<std::string> warnings = warnings_of(scene, options.output);
   if (options.verbosity >= 0)
     for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 
   // From here on a signal ends the run after the present step.
   catch_end_signals(remember_signal, /*second_kills=*/true);
   // The solvers have accepted the scene: nothing was written for one that they refuse.
-  output::begin_run_folder(options.output, options.scene_text, resolved);
-  Observer observer(scene, simulation, options.output);
+  if (!goes_on) output::begin_run_folder(options.output, options.scene_text, resolved);
+  Observer observer(scene, simulation, options.output, goes_on);
+  Course course{.time = simulation.time()};
+  Checkpoints checkpoints({simulation, observer, since, course.energy_off}, options.output, scene.output.checkpoint_interval,
+                          resolved, options.numerics);
+  if (goes_on) {
+    checkpoints.restore(*options.checkpoint);
+    course.time = simulation.time();
+    course.steps = simulation.steps();
+    output::continue_run_folder(options.output, resolved);
+  }
   Progress progress(simulation.time(), scene.end_time, options.verbosity);
   std::vector<char> reserve(1 << 20);  // [byte] from which the record is written when memory has run out
-  Course course{.time = simulation.time()};
   End end;
   // The loops over particles take memory as they go, and what they throw ends the program within them.
   const LastWords words([&](const char* why) {
@@ -190,6 +218,8 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
     try {
       steps();
     } catch (const NumericalStop& stop) {
+      if (course.step_done) checkpoints.write();
+      else if (stop.resumable() && simulation.bodies().empty()) checkpoints.write(/*whole_step=*/false);
       end = {.status = "stopped", .message = stop_message(stop, simulation, observer, course)};
     } catch (...) {
       std::vector<char>().swap(reserve);
@@ -206,7 +236,14 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
       result.record = record_of(scene, simulation, since);
     }
   };
-  guarded([&] { end = advance(scene, simulation, observer, progress, course); });
+  guarded([&] {
+    if (!goes_on) {
+      expect_numbers(simulation);
+      observer.begin(simulation);
+    }
+    end = advance(scene, simulation, observer, checkpoints, progress, course);
+    checkpoints.write();
+  });
   if (!end.failure) progress.finish(simulation);
   observe_end();
   if (end.status == "done" && course.energy_off) {
@@ -218,6 +255,10 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   result.record.status = end.status;
   result.record.message = end.message;
   result.record.warnings = warnings;
+  if (scene.output.checkpoint_interval > 0)
+    for (const auto& pass : checkpoints.timers().seconds()) result.record.passes.push_back(pass);
+  const auto& not_kept = checkpoints.warnings();
+  result.record.warnings.insert(result.record.warnings.end(), not_kept.begin(), not_kept.end());
   result.signal = end.signal;
   result.failure = end.failure;
   if (!end.failure || course.step_done)

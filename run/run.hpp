@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "output/checkpoint.hpp"
 #include "output/evidence.hpp"
 #include "output/run_record.hpp"
 #include "scene/scene.hpp"
@@ -16,12 +17,14 @@ namespace undex::run {
 inline constexpr const char* out_of_memory = "out of memory; take a larger spacing, or symmetry planes";
 
 struct RunOptions {
-  std::filesystem::path output;          ///< there, and held by an output::FolderLock
-  int threads = 0;                       ///< 0: the scene's choice, or all the machine has
-  int verbosity = 0;                     ///< -1 quiet, 0 normal, 1 every step
-  std::string scene_text;                ///< the scene file as the user wrote it
-  std::string program;                   ///< version text for the record
-  std::vector<std::string> last_fields;  ///< of the last state that a verdict needs, such as "fluid.pressure"
+  std::filesystem::path output;                    ///< there, and held by an output::FolderLock
+  int threads = 0;                                 ///< 0: the scene's choice, or all the machine has
+  int verbosity = 0;                               ///< -1 quiet, 0 normal, 1 every step
+  std::string scene_text;                          ///< the scene file as the user wrote it
+  std::string program;                             ///< version text for the record
+  std::string numerics;                            ///< what the digits depend on beside the scene, for checkpoints
+  std::vector<std::string> last_fields;            ///< of the last state that a verdict needs, such as "fluid.pressure"
+  const output::Checkpoint* checkpoint = nullptr;  ///< to go on from, in the same folder; null: from the scene's start
 };
 
 /// How a run ended and what it has observed.
@@ -35,7 +38,8 @@ struct Result {
 };
 
 /// Computes the scene and leaves everything in the folder but summary.json, which waits for the metrics. What was computed
-/// before a signal, a stop by the numerics or a failure of files or memory is kept and returned likewise. Throws SceneError, FileError.
+/// before a signal, a stop by the numerics or a failure of files or memory is kept and returned likewise. Throws SceneError,
+/// FileError, RestartError.
 Result compute(const scene::Scene& scene, const RunOptions& options);
 
 }  // namespace undex::run

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "fem_structure/structure.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_solid/solids.hpp"
 
 namespace undex::run {
@@ -14,6 +15,72 @@ namespace {
 
 /// The mass of finite elements cannot change.
 bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
+
+/// Axes along which a wall pushes the fluid: those of its closed faces' normals where the fluid is mirrored in them; all, where
+/// dummy particles stand behind them.
+std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
+  std::array<bool, 3> pushed{};
+  for (int a = 0; a < 3; ++a) {
+    const auto closed = [&](const std::string& face) {
+      const auto found = wall.faces.find(face);
+      if (found == wall.faces.end()) return true;
+      return found->second != sph::FaceCondition::open;
+    };
+    if (const auto* round = std::get_if<Cylinder>(&wall.container))
+      pushed[a] = a == round->axis ? closed("low") || closed("high") : closed("side");
+    else pushed[a] = closed(std::string(1, "xyz"[a]) + "_low") || closed(std::string(1, "xyz"[a]) + "_high");
+  }
+  const bool lined = !mirrors || std::any_of(wall.faces.begin(), wall.faces.end(),
+                                             [](const auto& face) { return face.second == sph::FaceCondition::no_slip; });
+  if (lined && (pushed[0] || pushed[1] || pushed[2])) pushed.fill(true);
+  return pushed;
+}
+
+/// Axes along which nothing gives an impulse that is not booked.
+std::array<bool, 3> balanced_axes(const scene::Scene& scene) {
+  std::array<bool, 3> balanced;
+  for (int a = 0; a < 3; ++a) balanced[a] = a < scene.fluid.dimension && !scene.fluid.symmetry.axis[a];
+  const bool mirrors = sph::mirrors_fluid(scene.fluid.numerics.scheme);
+  for (const sph::Wall& wall : scene.fluid.walls) {
+    const auto pushed = pushed_by(wall, mirrors);
+    for (int a = 0; a < 3; ++a) balanced[a] = balanced[a] && !pushed[a];
+  }
+  if (scene.structure)
+    for (const fem::Support& support : scene.structure->supports)
+      for (int a = 0; a < 3; ++a) balanced[a] = balanced[a] && !support.fixed[a];
+  return balanced;
+}
+
+/// Sum of V p^2/(2 rho c^2) [J]: what small waves against the present pressure are measured by. A law's own energy does not say
+/// it, for its zero may lie at that very pressure.
+double compression_energy(const sph::Fluid& fluid) {
+  const auto p = fluid.field("pressure"), rho = fluid.field("density"), c = fluid.field("sound_speed"), m = fluid.field("mass");
+  double sum = 0;
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (c[i] > 0) sum += 0.5 * m[i] * std::pow(p[i] / (rho[i] * c[i]), 2);
+  return sum;
+}
+
+/// Energy [J] of a strain of 1e-10 and of the motion that goes with it, in structure and solids: far above what rounding makes
+/// of a body at rest, far below what anybody computes.
+double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
+  double fastest = scene.structure ? materials::wave_speed(scene.structure->material) : 0.0, mass = 0.0;
+  for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
+  for (const auto& body : bodies) mass += body->ledger().mass;
+  return 0.5 * mass * std::pow(1e-10 * fastest, 2);
+}
+
+/// The table of the scene that a solver's complaint is about: it opens with the kind and the name, in quotes, of what is wrong,
+/// or with the key itself.
+std::string table_of(const std::string& complaint, const std::string& otherwise) {
+  for (const auto& [word, list] : {std::pair("body '", "bodies."), {"solid '", "solids."}, {"wall '", "walls."}})
+    if (complaint.starts_with(word)) {
+      const std::size_t begin = std::string_view(word).size();
+      return list + complaint.substr(begin, complaint.find('\'', begin) - begin);
+    }
+  const std::string key = complaint.substr(0, complaint.find_first_of(" :"));
+  return key.find('.') != std::string::npos ? key : otherwise;
+}
 
 /// The fastest of particles with velocities v and places x, three components each.
 std::string fastest_of(const std::vector<double>& v, const std::vector<double>& x, const std::vector<double>& id) {
@@ -38,26 +105,24 @@ Simulation::Simulation(const scene::Scene& scene) {
 
 void Simulation::build(const scene::Scene& scene) {
   std::vector<Finding> findings;
-  const auto attempt = [&](auto build) {
+  const auto attempt = [&](const char* table, auto build) {
     try {
       build();
     } catch (const std::invalid_argument& mistake) {
-      findings.push_back({{}, mistake.what()});
+      findings.push_back(scene.places.finding(table_of(mistake.what(), table), mistake.what()));
     }
   };
-  if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
-  if (scene.structure) attempt([&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
+  if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
+  if (scene.structure) attempt("structure", [&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
   solid::Solids* solids = nullptr;
   if (!scene.solids.bodies.empty())
-    attempt([&] {
+    attempt("solids", [&] {
       auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
       if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
       solids = built.get();
       bodies_.push_back(std::move(built));
     });
-  for (const auto& body : bodies_)
-    if (body->time() < scene.fluid.start_time) body->advance(scene.fluid.start_time);
-  if (findings.empty()) attempt([&] { make_driver(scene.coupling, solids); });
+  if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 
@@ -77,21 +142,17 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
-  bool planes = false;
   for (int a = 0; a < 3; ++a)
-    if (scene.fluid.symmetry.axis[a]) {
-      copies_ *= 2;
-      planes = true;
-    }
-  const bool supports = scene.structure && (!scene.structure->supports.empty() || !scene.structure->loads.empty() ||
-                                            !scene.structure->planes.empty());
-  closed_ = !planes && scene.fluid.gravity.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !supports;
+    if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
+  balanced_ = balanced_axes(scene);
+  gravity_ = scene.fluid.gravity;
+  closed_ = copies_ == 1 && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !scene.structure;
+  start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();
   start_angular_momentum_ = angular_momentum();
-  const EnergyBalance start = energy();
-  start_energy_ = start.total();
-  energy_scale_ = std::abs(start_energy_);
+  start_energy_ = energy().total();
+  least_scale_ = copies_ * ((fluid_ ? compression_energy(*fluid_) : 0.0) + rounding_energy(scene, bodies_));
 }
 
 double Simulation::time() const { return fluid_ ? fluid_->time() : bodies_.front()->time(); }
@@ -100,6 +161,19 @@ long Simulation::steps() const { return fluid_ ? fluid_->steps() : bodies_.front
 void Simulation::advance(double end) {
   last_ = driver_->advance(end);
   for (DeformableBody* body : followers_) body->advance(time());
+}
+
+void Simulation::visit_state(StateVisitor& state) {
+  if (fluid_) state.part("fluid", [&] { fluid_->visit_state(state); });
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    state.part("body " + std::to_string(b), [&] { bodies_[b]->visit_state(state); });
+  state.part("driver", [&] { driver_->visit_state(state); });
+  state("last step", last_.words);
+  state("last step size", last_.size);
+}
+
+void Simulation::find_rates_anew() {
+  if (fluid_) fluid_->find_rates_anew();
 }
 
 EnergyBalance Simulation::energy() const {
@@ -112,7 +186,6 @@ EnergyBalance Simulation::energy() const {
     e.work_given = copies_ * l.wall_work;
     e.gravity = copies_ * l.gravity;
   }
-  double& external = driver_->joins_water_and_body() ? e.work_received : e.external;
   for (const auto& body : bodies_) {
     const BodyLedger l = body->ledger();
     e.structure_kinetic += copies_ * l.kinetic;
@@ -120,10 +193,12 @@ EnergyBalance Simulation::energy() const {
     e.plastic += copies_ * l.plastic;
     e.viscous += copies_ * (l.viscous + l.impact);
     e.gravity += copies_ * l.gravity;
-    external += copies_ * l.external;
+    e.work_received += copies_ * l.received;
+    e.external += copies_ * l.external;
   }
   e.start = start_energy_;
-  e.scale = std::max({energy_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
+  e.scale = std::max(
+      {std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
   return e;
 }
 
@@ -135,11 +210,23 @@ double Simulation::mass() const {
   return mass;
 }
 
+double Simulation::all_mass() const {
+  double mass = fluid_ ? fluid_->ledger().mass : 0.0;
+  for (const auto& body : bodies_) mass += body->ledger().mass;
+  return mass;
+}
+
 Vec3 Simulation::momentum() const {
   Vec3 momentum = Vec3::Zero();
   if (fluid_) momentum += fluid_->ledger().momentum;
   for (const auto& body : bodies_) momentum += body->ledger().momentum;
   return momentum;
+}
+
+Vec3 Simulation::impulse() const {
+  Vec3 impulse = all_mass() * (time() - start_time_) * gravity_;
+  for (const auto& body : bodies_) impulse += body->ledger().impulse;
+  return impulse;
 }
 
 /// Of the bodies.
@@ -152,13 +239,15 @@ Vec3 Simulation::angular_momentum() const {
 double Simulation::mass_error() const { return start_mass_ > 0 ? std::abs(mass() / start_mass_ - 1.0) : 0.0; }
 
 double Simulation::momentum_error() const {
-  if (!closed_) return std::numeric_limits<double>::quiet_NaN();
+  if (balanced_ == std::array{false, false, false}) return std::numeric_limits<double>::quiet_NaN();
   const EnergyBalance e = energy();
-  double moving = mass();
-  for (const auto& body : bodies_)
-    if (!in_particles(body)) moving += body->ledger().mass;
-  const double scale = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic) * moving);  // momentum if all of it went one way
-  return scale > 0 ? (momentum() - start_momentum_).norm() / scale : 0.0;
+  const Vec3 given = impulse();
+  const double one_way = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic) / copies_ * all_mass());
+  const double scale = std::max(one_way, given.norm());
+  Vec3 change = momentum() - start_momentum_ - given;
+  for (int a = 0; a < 3; ++a)
+    if (!balanced_[a]) change[a] = 0;
+  return scale > 0 ? change.norm() / scale : 0.0;
 }
 
 std::optional<double> Simulation::angular_momentum_error() const {
@@ -176,7 +265,9 @@ std::optional<double> Simulation::angular_momentum_error() const {
 std::optional<double> Simulation::interface_energy_error() const {
   const auto l = driver_->interface();
   if (!l) return std::nullopt;
-  const double scale = std::max(std::abs(l->work_given), std::abs(l->work_received));
+  const EnergyBalance e = energy();
+  const double scale =
+      std::max({std::abs(l->work_given), std::abs(l->work_received), 1e-6 * std::max(e.scale, std::abs(e.internal)) / copies_});
   return scale > 0 ? (l->work_given - l->work_received) / scale : 0.0;
 }
 

@@ -1,6 +1,7 @@
 // What a scene asks for: water or none, deforming bodies, and the driver that advances them together.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,13 +20,13 @@ struct EnergyBalance {
   double kinetic = 0, internal = 0, dissipated = 0;                     // fluid
   double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
   double work_given = 0, work_received = 0;                             // across the interface
-  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids
+  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids; the interface's is not in it
   double gravity = 0;   // its work on everything
   double start = 0;     // sum at the start
   double total() const {
     return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity;
   }
-  double scale = 0;  // what errors are measured against
+  double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
 };
 
@@ -42,14 +43,21 @@ class Simulation {
   const std::string& last_step() const { return last_.words; }
   double last_step_size() const { return last_.size; }
 
+  /// What the next step goes on from: all that outlasts a step, of everybody.
+  void visit_state(StateVisitor& state);
+  /// Goes on from the state of a step that went wrong.
+  void find_rates_anew();
+
   EnergyBalance energy() const;
   double mass_error() const;
-  /// Relative change of momentum of everything together; NaN where gravity, walls, rigid planes, supports or symmetry planes take
-  /// part.
+  /// Change of momentum of everything together beyond the impulses of gravity, loads and rigid planes, over what all kinetic
+  /// energy one way would have (or those impulses, where they are larger). Along the axes to which no wall, support or symmetry
+  /// plane gives an impulse of its own; NaN where there is none.
   double momentum_error() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;
-  /// (work given - work received)/(work given) across the interface; nothing where there is none.
+  /// (work given - work received) over the larger of the two across the interface (but not less than 1e-6 of all energy, so that
+  /// rest is no error); nothing where there is no interface.
   std::optional<double> interface_energy_error() const;
   /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
   std::optional<double> interface_impulse_error() const;
@@ -68,7 +76,10 @@ class Simulation {
   void make_driver(const coupling::Settings& settings, solid::Solids* solids);
   void take_start(const scene::Scene& scene);
   double mass() const;
+  double all_mass() const;
   Vec3 momentum() const;
+  /// Of gravity, loads and rigid planes since the start [N s].
+  Vec3 impulse() const;
   Vec3 angular_momentum() const;
 
   std::unique_ptr<sph::Fluid> fluid_;
@@ -77,9 +88,11 @@ class Simulation {
   std::vector<DeformableBody*> followers_;  // bodies that the driver does not advance
   Step last_;
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
-  double start_energy_ = 0, start_mass_ = 0;
-  double energy_scale_ = 0;  // largest part of the energy met so far
-  bool closed_ = false;      // does momentum balance without walls, supports and planes?
+  Vec3 gravity_ = Vec3::Zero();
+  double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;
+  double least_scale_ = 0;          // of energies: what pressure and rounding at the start stand for [J]
+  std::array<bool, 3> balanced_{};  // axes along which all impulses are booked
+  bool closed_ = false;             // does nothing act from outside?
   Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();
 };
 

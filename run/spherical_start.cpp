@@ -5,7 +5,8 @@
 #include <cstdio>
 
 #include "core/errors.hpp"
-#include "exact/lagrangian_1d.hpp"
+#include "run/spherical_flow.hpp"
+#include "scene/numbers.hpp"
 #include "sph_fluid/lattice.hpp"
 
 namespace undex::run {
@@ -14,36 +15,18 @@ namespace {
 constexpr int cells_in_charge = 250;
 
 [[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
-  throw SceneError(scene.file.string(), {{{}, "start.kind = \"spherical\": " + why}});
+  throw SceneError(scene.file.string(), {scene.places.finding("start.kind", "start.kind = \"spherical\": " + why)});
+}
+
+/// At the start [Pa].
+double pressure_of(const sph::Body& body) {
+  const double rho = start_density(body), energy = start_energy(body);
+  return std::visit([&](const auto& law) { return law.evaluate(rho, energy).pressure; }, body.material.law);
 }
 
 bool same_sphere(const Primitive& shape, const Sphere& sphere) {
   const auto* other = std::get_if<Sphere>(&shape);
   return other && other->center == sphere.center && other->radius == sphere.radius;
-}
-
-std::size_t find_charge(const scene::Scene& scene) {
-  const auto& bodies = scene.fluid.bodies;
-  std::size_t charge = bodies.size();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const sph::Body& body = bodies[i];
-    if (!scene.start.body.empty() ? body.name != scene.start.body : !body.variable_h) continue;
-    if (!std::holds_alternative<Sphere>(body.shape.base) || !body.shape.removed.empty()) continue;
-    if (charge < bodies.size())
-      refuse(scene, "bodies '" + bodies[charge].name + "' and '" + body.name + "' are both spherical; name one by start.body");
-    charge = i;
-  }
-  if (charge == bodies.size())
-    refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
-  return charge;
-}
-
-std::size_t find_medium(const scene::Scene& scene, const Sphere& sphere) {
-  const auto& bodies = scene.fluid.bodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const Primitive& hole : bodies[i].shape.removed)
-      if (same_sphere(hole, sphere)) return i;
-  refuse(scene, "no body surrounds the charge; the medium's `subtract` must name it");
 }
 
 /// Distance from the charge's center to the nearest place where the flow stops being spherical.
@@ -54,25 +37,6 @@ double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, con
   for (const sph::Body& body : scene.fluid.bodies)
     if (&body != &charge && &body != &medium) distance = std::min(distance, signed_distance(body.shape, sphere.center, 3));
   return distance;
-}
-
-exact::Layer layer_of(const sph::Body& body, double inner, double outer, double cell) {
-  exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer};
-  layer.cells = std::max(1, int(std::lround((outer - inner) / cell)));
-  layer.density = start_density(body);
-  layer.energy = start_energy(body);
-  return layer;
-}
-
-std::vector<exact::Layer> layers_of(const sph::Body& charge, const sph::Body& medium, double outer, int charge_cells) {
-  const double radius = std::get<Sphere>(charge.shape.base).radius, cell = radius / charge_cells;
-  std::vector<exact::Layer> layers{layer_of(charge, 0.0, radius, cell), layer_of(medium, radius, outer, cell)};
-  if (charge.burn && !charge.burn->instantaneous) {
-    layers[0].burn = charge.burn;
-    layers[0].burn->origin = Vec3::Zero();
-    layers[0].burn->width = 4.0 * cell;
-  }
-  return layers;
 }
 
 /// State, mass and energies of one layer of the mesh for the particles of one body. `share`: kept part of the sphere.
@@ -101,48 +65,71 @@ std::shared_ptr<const sph::StartField> field_of(std::shared_ptr<const exact::Lag
 
 }  // namespace
 
-Sphere spherical_charge(const scene::Scene& scene) { return std::get<Sphere>(scene.fluid.bodies[find_charge(scene)].shape.base); }
-
-exact::Lagrangian1D spherical_flow(const scene::Scene& scene, double outer, int charge_cells) {
-  const sph::Body& charge = scene.fluid.bodies[find_charge(scene)];
-  const sph::Body& medium = scene.fluid.bodies[find_medium(scene, spherical_charge(scene))];
-  return {3, layers_of(charge, medium, outer, charge_cells), exact::Boundary::rigid, exact::Boundary::transmitting};
+/// Until the particles take over nothing but the charge's flow is computed: all else must stay as it is until then.
+void require_rest(const scene::Scene& scene, const sph::Body& charge, const sph::Body& medium, double rest) {
+  const auto is_rest = [&](double p) { return std::abs(p - rest) <= 1e-3 * std::abs(rest) + 1.0; };
+  const std::string remedy =
+      " until the particles take over, for only the charge's flow is computed; take start.kind = \"plain\"";
+  for (const sph::Body& body : scene.fluid.bodies) {
+    if (body.velocity.norm() > 0 || body.radial_velocity != 0)
+      refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
+    if (&body == &charge || &body == &medium) continue;
+    if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
+    const double p = pressure_of(body);
+    if (!is_rest(p))
+      refuse(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium '" + medium.name + "' at " +
+                        scene::rounded(rest) + " Pa, but all else must stay at rest" + remedy);
+  }
+  for (const solid::Body& solid : scene.solids.bodies) {
+    if (solid.velocity.norm() > 0 || solid.spin.norm() > 0) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
+    if (solid.residual_stress != 0)
+      refuse(scene, "'" + solid.name + "' begins under stress, but all else must stay at rest" + remedy);
+  }
+  if (!scene.structure) return;
+  if (scene.structure->initial_velocity.norm() > 0)
+    refuse(scene, "the structure must be at rest, but it has a velocity; take start.kind = \"plain\"");
+  for (const fem::PressureLoad& load : scene.structure->loads)
+    for (const double p : load.pressure)
+      if (p != 0 && !is_rest(p))
+        refuse(scene, "a load of " + scene::rounded(p) + " Pa acts on the structure's face '" + load.face +
+                          "', which is neither 0 nor the medium's " + scene::rounded(rest) +
+                          " Pa, but all else must stay at rest" + remedy);
 }
 
-std::string begin_spherically(scene::Scene& scene) {
+std::string begin_spherically(scene::Scene& scene, const StartProgress& progress) {
   sph::Settings& fluid = scene.fluid;
-  sph::Body& charge = fluid.bodies[find_charge(scene)];
+  sph::Body& charge = fluid.bodies[charge_of(scene)];
+  sph::Body& medium = fluid.bodies[medium_of(scene)];
   const Sphere sphere = std::get<Sphere>(charge.shape.base);
-  sph::Body& medium = fluid.bodies[find_medium(scene, sphere)];
   double share = 1.0;
   for (int a = 0; a < 3; ++a)
     if (fluid.symmetry.axis[a]) {
       share *= 0.5;
       if (sphere.center[a] != 0.0) refuse(scene, "the center of '" + charge.name + "' must lie on every symmetry plane");
     }
-  if (charge.velocity.norm() > 0 || medium.velocity.norm() > 0) refuse(scene, "charge and medium must be at rest");
-  for (const solid::Body& solid : scene.solids.bodies)
-    if (solid.velocity.norm() > 0 || solid.spin.norm() > 0) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
+  require_rest(scene, charge, medium, pressure_of(medium));
   if (charge.burn && !charge.burn->instantaneous && charge.burn->origin != sphere.center)
     refuse(scene, "'" + charge.name + "' must burn from its center");
+  if (scene.start.time && *scene.start.time >= scene.end_time) refuse(scene, "end_time comes before the start");
 
   const double obstacle = obstacle_distance(scene, charge, medium, sphere);
   const double reach = sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing);
-  const auto flow = std::make_shared<exact::Lagrangian1D>(3, layers_of(charge, medium, obstacle, cells_in_charge));
   const double last_front = obstacle - reach - fluid.lattice.spacing;
   if (last_front <= sphere.radius)
     refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
-  constexpr double threshold = 1e6;  // [Pa] above the medium's own pressure
-  if (scene.start.time) {
-    flow->advance(*scene.start.time);
-  } else {
-    const double stride = 0.1 * (last_front - sphere.radius) / 2000.0;  // a tenth of the way at about the speed of sound
-    while (flow->shock_front(threshold) < last_front - 0.5 * fluid.lattice.spacing) flow->advance(flow->time() + 0.1 * stride);
+  const auto computed = std::make_shared<SphericalFlow>(scene, obstacle, cells_in_charge);
+  const double goal = last_front - 0.5 * fluid.lattice.spacing;
+  const double stride = (last_front - sphere.radius) / 2e5;  // a hundredth of the way at about the speed of sound
+  while (scene.start.time ? computed->time() < *scene.start.time : computed->front() < goal) {
+    const double next = computed->time() + stride;
+    computed->advance(scene.start.time ? std::min(next, *scene.start.time) : next);
+    if (scene.start.time && computed->front() > obstacle - 0.5 * reach)
+      refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
+    if (computed->time() >= scene.end_time) refuse(scene, "end_time comes before the start");
+    if (progress) progress(computed->time(), computed->front(), obstacle);
   }
-  const double front = flow->shock_front(threshold);
-  if (front > obstacle - 0.5 * reach)
-    refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
-  if (flow->time() >= scene.end_time) refuse(scene, "end_time comes before the start");
+  const double front = computed->front();
+  const std::shared_ptr<const exact::Lagrangian1D> flow(computed, &computed->mesh());
 
   const double radius = flow->interface_radius(0);
   for (const sph::Body* body : {&charge, &medium})
@@ -160,12 +147,13 @@ std::string begin_spherically(scene::Scene& scene) {
   for (Primitive& hole : medium.shape.removed)
     if (same_sphere(hole, sphere)) hole = grown;
   fluid.start_time = flow->time();
+  if (scene.structure) scene.structure->start_time = flow->time();
   fluid.heat_before = share * flow->barotropic_heat();
 
   char text[300];
   std::snprintf(
-      text, sizeof text, "spherical start: %d cells to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
-      flow->cells(), flow->time() * 1e6, front * 1e3, obstacle * 1e3, charge.name.c_str(), sphere.radius * 1e3, radius * 1e3);
+      text, sizeof text, "spherical start: %ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
+      flow->steps(), flow->time() * 1e6, front * 1e3, obstacle * 1e3, charge.name.c_str(), sphere.radius * 1e3, radius * 1e3);
   return text;
 }
 

@@ -52,8 +52,8 @@ std::string hexadecimal(char c) {
   return std::string("0x") + digits[code >> 4] + digits[code & 15];
 }
 
-/// Finds what no TOML file has, before the parser sees it: bytes that are no text, and keys of very many parts, each of which is a
-/// table within the one before. Throws SceneError with the place.
+/// Finds what no TOML file has, before the parser sees it: bytes that are no text, and keys of very many parts, each of which
+/// is a table within the one before. Throws SceneError with the place.
 void expect_text(std::string_view text, const std::string& file) {
   constexpr int most_parts = 32;
   Where at{1, 1};

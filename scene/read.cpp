@@ -94,6 +94,9 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   read_comparison(draft, kinds);
   validate(draft);
   if (!draft.report.empty()) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
+  draft.scene.places = Places(draft.root);
+  for (const Finding& finding : without_repetitions(draft.warnings.findings()))
+    draft.scene.warnings.push_back(SceneError(file.string(), {finding}).what());
   return std::move(draft.scene);
 }
 

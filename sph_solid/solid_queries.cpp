@@ -104,7 +104,9 @@ BodyLedger Solids::ledger() const {
       return 0.5 * p.contact_pressure[i] * p.contact_pressure[i] / modulus * p.mass[i] / p.rho[i];
     });
   }
-  ledger.external = self_->external_work;
+  ledger.received = self_->received_work;
+  ledger.external = self_->plane_work;
+  ledger.impulse = self_->plane_impulse;
   const Vec3& g = self_->around.gravity;
   ledger.gravity = sum([&](std::uint32_t i) { return p.mass[i] * g.dot(p.x[i] - p.start[i]); });
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;

@@ -151,7 +151,7 @@ void Solids::Implementation::step(double dt) {
   integrator_jumps += held_back(dt) - integrator_held;
   {
     const auto timer = timers.measure("solid integration");
-    external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) {
+    received_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) {
                        return impulse_force[i].dot(particles.v[i] + 0.5 * dt * acceleration[i]);
                      });
 #pragma omp parallel for schedule(static)
@@ -168,7 +168,7 @@ void Solids::Implementation::step(double dt) {
   ++steps;
   {
     const auto timer = timers.measure("solid integration");
-    external_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) { return impulse_force[i].dot(particles.v[i]); });
+    received_work += 0.5 * dt * blocked_sum<double>(0, n, [&](std::uint32_t i) { return impulse_force[i].dot(particles.v[i]); });
 #pragma omp parallel for schedule(static)
     for (std::uint32_t i = 0; i < n; ++i) particles.v[i] += 0.5 * dt * acceleration[i];
   }
@@ -193,6 +193,19 @@ void Solids::Implementation::expect_sound(double dt) {
   throw NumericalStop(text);
 }
 
+namespace {
+
+/// What a rigid plane does to particles: work [J] and impulse along its normal [N s].
+struct Push {
+  double work = 0, impulse = 0;
+  void operator+=(const Push& other) {
+    work += other.work;
+    impulse += other.impulse;
+  }
+};
+
+}  // namespace
+
 /// A particle that would come nearer to a plane than half a spacing stops there; what that takes of the kinetic energy is work
 /// on the plane. (Half of its present thickness would be nearer the truth, and the plane would work on a particle that flattens:
 /// 4 % of a Taylor bar's energy at 16 particles across, against 2 %.)
@@ -200,18 +213,20 @@ void Solids::Implementation::meet_planes(double dt) {
   for (const RigidPlane& plane : settings.planes) {
     const double side = plane.body_above ? 1.0 : -1.0;
     for (const SolidGroup& group : groups) {
-      const double sum = blocked_sum<double>(group.begin, group.end, [&](std::uint32_t i) {
+      const Push push = blocked_sum<Push>(group.begin, group.end, [&](std::uint32_t i) -> Push {
         const double thickness = 0.5 * group.spacing;
         const double height = side * (particles.x[i][plane.axis] - plane.position) - thickness;
         double& v = particles.v[i][plane.axis];
         const double least = std::min(0.0, -height / dt);  // what has come to lie too deep is not thrown out
-        if (side * v >= least) return 0.0;
+        if (side * v >= least) return {};
         const double before = v, earlier = v - 0.5 * (dt + last_step) * acceleration[i][plane.axis];
         v = side * least;
         // The impulse does its work over the half steps before and after it.
-        return 0.5 * particles.mass[i] * (v - before) * (earlier + v);
+        const double impulse = particles.mass[i] * (v - before);
+        return {.work = 0.5 * impulse * (earlier + v), .impulse = impulse};
       });
-      external_work += sum;
+      plane_work += push.work;
+      plane_impulse[plane.axis] += push.impulse;
     }
   }
 }
@@ -287,6 +302,28 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
   show_surface_motion();
 }
 
+/// What a step goes on from, and what others read between two steps.
+void Solids::Implementation::visit_state(StateVisitor& state) {
+  state("time", time);
+  state("steps", steps);
+  state("last step", last_step);
+  state("received work", received_work);
+  state("plane work", plane_work);
+  state("plane impulse", plane_impulse);
+  state("integrator jumps", integrator_jumps);
+  state("integrator held", integrator_held);
+  state.part("particles", [&] { particles.visit_state(state); });
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g].lagrangian) state.part("body " + std::to_string(g), [&] { groups[g].lagrangian->visit_state(state); });
+  if (pairs) state.part("pairs", [&] { pairs->visit_state(state); });
+  state("acceleration", acceleration);
+  state("impulse force", impulse_force);
+  state("surface position", surface_position);
+  state("surface velocity", surface_velocity);
+  state("surface acceleration", surface_acceleration);
+  state("timers", timers);
+}
+
 // ---- The public face ------------------------------------------------------------------------------------------------
 
 Solids::Solids(const Settings& settings, const sph::Settings& around)
@@ -295,6 +332,7 @@ Solids::~Solids() = default;
 Solids::Solids(Solids&&) noexcept = default;
 Solids& Solids::operator=(Solids&&) noexcept = default;
 
+void Solids::visit_state(StateVisitor& state) { self_->visit_state(state); }
 double Solids::stable_step() const { return self_->stable_step(); }
 void Solids::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
 
@@ -302,7 +340,7 @@ void Solids::kick(std::span<const Vec3> impulse) {
   Implementation& s = *self_;
   for (std::size_t i = 0; i < s.particles.size(); ++i) {
     const Vec3 change = impulse[i] / s.particles.mass[i];
-    s.external_work += impulse[i].dot(s.particles.v[i] + 0.5 * change);
+    s.received_work += impulse[i].dot(s.particles.v[i] + 0.5 * change);
     s.particles.v[i] += change;
   }
 }

@@ -31,7 +31,8 @@ struct Solids::Implementation {
   PassTimers timers;
   double time = 0, last_step = 0;
   long steps = 0;
-  double external_work = 0, integrator_jumps = 0, integrator_held = 0, first_step = 0;
+  Vec3 plane_impulse = Vec3::Zero();  // received from the rigid planes [N s]
+  double received_work = 0, plane_work = 0, integrator_jumps = 0, integrator_held = 0, first_step = 0;
 
   // The meshed wet faces, where water meets the bodies by them: nodes as material points, and their motion.
   WetSurface surface;
@@ -63,6 +64,8 @@ struct Solids::Implementation {
   void find_forces(double dt);
   void find_acceleration();
   double held_back(double dt) const;
+
+  void visit_state(StateVisitor& state);
 
   const SolidGroup& group_of(std::uint32_t particle) const;
   std::uint32_t fastest() const;  // the particle that limits the step

@@ -6,6 +6,7 @@
 
 #include "study/run_settings.hpp"
 #include "core/errors.hpp"
+#include "output/checkpoint.hpp"
 #include "output/files.hpp"
 #include "output/folder_lock.hpp"
 #include "study/run_labels.hpp"
@@ -85,6 +86,8 @@ RunState run_state(const fs::path& folder, const scene::Study& study, const scen
     state.message = outcome->message;
     state.finished = holds(study.cpu_limit, outcome->cpu_limit_s) || holds(study.wall_limit, outcome->wall_limit_s);
   }
+  for (const char* name : output::checkpoint_names)
+    state.resumable = state.resumable || (!state.finished && fs::exists(folder / name, error));
   if (!state.finished) state.reason = state.status == "limit" ? "the limit that ended it has been raised" : "half-finished";
   return state;
 }

@@ -90,7 +90,7 @@ void StudyWork::rename_folders() {
 }
 
 void StudyWork::forget(const std::vector<std::size_t>& runs) {
-  for (const std::size_t run : runs) states_[run].finished = false;
+  for (const std::size_t run : runs) states_[run].finished = states_[run].resumable = false;
 }
 
 int StudyWork::compute(std::vector<std::size_t> runs, int jobs) {
@@ -119,14 +119,22 @@ void StudyWork::start_waiting(int jobs) {
 
 void StudyWork::start(std::size_t run) {
   RunState& state = states_[run];
-  Job job{run, state.finished, nullptr};
-  if (!job.repetition) {
-    state.folder = folder_ / "runs" / study_.runs[run].name;
+  const fs::path own = folder_ / "runs" / study_.runs[run].name;
+  Job job{.run = run, .repetition = state.finished, .resumes = state.resumable && state.folder == own, .child = nullptr};
+  if (job.resumes) {
+    job.cpu_before = state.record.cpu_time_s;
+    job.wall_before = state.record.wall_time_s;
+    state.resumable = false;  // where it cannot, it begins anew
+  } else if (!job.repetition) {
+    state.folder = own;
     clear_run_folder(state.folder);
+  }
+  if (!job.repetition) {
     state.cpu_times.clear();
     state.wall_times.clear();
   }
-  const auto arguments = run_arguments(study_.runs[run], job.repetition ? repetition_folder(run) : state.folder);
+  const auto arguments = job.resumes ? std::vector<std::string>{"resume", state.folder.string(), "-q"}
+                                     : run_arguments(study_.runs[run], job.repetition ? repetition_folder(run) : state.folder);
   std::string command = "undex";
   for (const std::string& argument : arguments) command.append(" ").append(quoted_for_shell(argument));
   const fs::path log = state.folder / (job.repetition ? "repetition.txt" : "log.txt");
@@ -153,8 +161,8 @@ void StudyWork::enforce_limits(Job& job) const {
     if (job.child->wall_time() > job.ended_at + patience) job.child->send(SIGKILL);
     return;
   }
-  if (study_.cpu_limit && job.child->cpu_time() > *study_.cpu_limit) job.cpu_limit = *study_.cpu_limit;
-  if (study_.wall_limit && job.child->wall_time() > *study_.wall_limit) job.wall_limit = *study_.wall_limit;
+  if (study_.cpu_limit && job.cpu_before + job.child->cpu_time() > *study_.cpu_limit) job.cpu_limit = *study_.cpu_limit;
+  if (study_.wall_limit && job.wall_before + job.child->wall_time() > *study_.wall_limit) job.wall_limit = *study_.wall_limit;
   if (job.cpu_limit == 0 && job.wall_limit == 0) return;
   job.ended_at = job.child->wall_time();
   job.child->send(SIGTERM);
@@ -184,6 +192,8 @@ bool StudyWork::take_in(const Job& job, const ChildProcess::End& end) {
   RunState& state = states_[job.run];
   if (job.repetition) {
     if (!take_in_repetition(job)) return false;  // not repeated again: the times so far are what there is
+  } else if (job.resumes && end.exit_code == exit_restart) {
+    return signals == 0;  // another program or machine, or a damaged checkpoint: the run begins anew
   } else {
     write_outcome(state.folder / "outcome.json", outcome_of(job, end));
     state = run_state(state.folder, study_, run);

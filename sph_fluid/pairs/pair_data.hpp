@@ -44,6 +44,7 @@ struct GroupView {
   bool variable_h;
   bool gas;                    ///< bubble gas or detonation products, not liquid
   std::uint32_t material = 0;  ///< one number for all groups of one material
+  double least_pressure = 0;   ///< that a pair may have, 0 or the tension that the law carries [Pa]
   bool fast = false;           ///< see PairChoice
   bool own_pairs = true;       ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
   int images_of = -1;          ///< a group of images (wall_images.hpp): the group that they show

@@ -30,7 +30,8 @@ MAY_INCLUDE = {
     "scene": ["core", "materials", "sph_fluid/settings.hpp", "sph_solid/settings.hpp", "fem_structure/settings.hpp",
               "coupling/settings.hpp"],
     "output": ["core"],
-    "run": ["core", "exact", "sph_fluid/water/fluid.hpp", "sph_fluid/walls/lattice_warnings.hpp", "sph_fluid/lattice.hpp",
+    "run": ["core", "exact", "sph_fluid/water/fluid.hpp", "sph_fluid/walls/lattice_warnings.hpp",
+            "sph_fluid/walls/slip_faces.hpp", "sph_fluid/lattice.hpp",
             "sph_solid/solids.hpp", "fem_structure/structure.hpp", "coupling", "scene", "output"],
     "judge": ["core", "exact", "sph_fluid/settings.hpp", "scene", "output", "run"],
     "study": ["core", "scene", "output", "judge"],
@@ -59,6 +60,7 @@ LIBRARY_OWNERS = {
     "H5": ["output"],
     "toml++/": ["scene"],
     "CLI/": ["app"],
+    "xxhash.h": ["output"],
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)

@@ -1,5 +1,5 @@
-// Preloaded before the program: memory that runs out at a call of one's choice. UNDEX_FAIL_AT=n: the n-th alone, UNDEX_FAIL_FROM=n:
-// every one from it on. UNDEX_COUNT=file: how many there were. Counted are operator new and aligned_alloc.
+// Preloaded before the program: memory that runs out at a call of one's choice. UNDEX_FAIL_AT=n: the n-th alone,
+// UNDEX_FAIL_FROM=n: every one from it on. UNDEX_COUNT=file: how many there were. Counted are operator new and aligned_alloc.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

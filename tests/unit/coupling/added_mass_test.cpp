@@ -49,9 +49,10 @@ class RigidPlate : public DeformableBody {
     }
     time_ = t_end;
   }
+  void visit_state(StateVisitor&) override {}
   BodyLedger ledger() const override {
     BodyLedger ledger;
-    ledger.external = work_;
+    ledger.received = work_;
     return ledger;
   }
   // What the coupling does not ask for.

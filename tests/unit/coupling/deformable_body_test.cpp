@@ -81,7 +81,7 @@ TEST_P(AnyBody, ImpulsesArriveWhole) {
     EXPECT_EQ(body_->time(), end);
   }
   EXPECT_LT((body_->ledger().momentum - expected).norm(), 1e-12 * start);
-  EXPECT_NE(body_->ledger().external, 0.0);
+  EXPECT_NE(body_->ledger().received, 0.0);
 }
 
 TEST_P(AnyBody, RefusesImpulsesForOtherNodes) {

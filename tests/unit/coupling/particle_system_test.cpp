@@ -71,7 +71,7 @@ TEST_P(Impact, WhatTheWaterLosesTheBlockGains) {
   EXPECT_LT(moved[2], 0.2 * start[2]);  // it has been struck
   EXPECT_LT((fluid.ledger().momentum + moved - start).norm(), 1e-12 * start.norm());
   // Work given is work received, but for what the step's prediction of the wall's motion leaves.
-  const double given = fluid.ledger().wall_work, received = solids.ledger().external;
+  const double given = fluid.ledger().wall_work, received = solids.ledger().received;
   EXPECT_GT(received, 0.0);
   EXPECT_NEAR(given / received, 1.0, 0.02);
   EXPECT_NEAR(solids.ledger().balance() / received, 0.0, 0.01);

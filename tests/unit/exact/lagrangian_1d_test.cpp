@@ -338,5 +338,32 @@ TEST(Lagrangian1D, RefusesWhatDoesNotFit) {
   EXPECT_THROW(s.advance(1.0), NumericalStop);
 }
 
+/// Merging cells behind a wave: what is conserved stays, and the wave that runs on is the same.
+TEST(Lagrangian1DTest, CoarseningKeepsMassMomentumAndEnergy) {
+  for (const int dimension : {1, 3}) {
+    const Layer hot{.law = ideal(1.4), .inner = 0, .outer = 1, .cells = 200, .density = 1.0, .energy = 2.5e3};
+    const Layer cold{.law = ideal(1.4), .inner = 1, .outer = 6, .cells = 1000, .density = 1.0, .energy = 2.5};
+    Lagrangian1D fine(dimension, {hot, cold}, dimension == 1 ? Boundary::free : Boundary::rigid, Boundary::free),
+        merged(dimension, {hot, cold}, dimension == 1 ? Boundary::free : Boundary::rigid, Boundary::free);
+    for (auto* flow : {&fine, &merged}) flow->advance(0.05);
+    const IntervalIntegral before = merged.integral(-10, 10);
+    const double energy = merged.total_energy();
+    const int cells = merged.cells();
+    merged.coarsen(0.011);  // two cells of 0.005
+    EXPECT_LT(merged.cells(), cells - 100);
+    const IntervalIntegral after = merged.integral(-10, 10);
+    EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-13);
+    EXPECT_NEAR(after.volume / before.volume, 1.0, 1e-13);
+    if (dimension == 1) EXPECT_NEAR(after.momentum, before.momentum, 1e-12 * std::sqrt(2 * before.kinetic_energy * before.mass));
+    EXPECT_NEAR(merged.total_energy() / energy, 1.0, 1e-13);
+    EXPECT_NEAR(merged.interface_radius(0), fine.interface_radius(0), 0.0);
+    for (auto* flow : {&fine, &merged}) flow->advance(0.08);
+    EXPECT_NEAR((merged.total_energy() + merged.boundary_work()) / (fine.total_energy() + fine.boundary_work()), 1.0, 1e-10);
+    EXPECT_NEAR(merged.shock_front(10.0), fine.shock_front(10.0), 0.005);
+    EXPECT_NEAR(merged.at(1.2).pressure / fine.at(1.2).pressure, 1.0, 0.01);
+    EXPECT_NEAR(merged.interface_radius(0), fine.interface_radius(0), 0.002);
+  }
+}
+
 }  // namespace
 }  // namespace undex::exact

@@ -39,7 +39,7 @@ TEST(Conservation, FreeBodyKeepsBothMomenta) {
   EXPECT_LT((body.ledger().momentum - start - total(impulse)).norm(), 1e-13 * total(impulse).norm() + 1e-14 * start.norm());
   const Vec3 linear = body.ledger().momentum, angular = body.ledger().angular_momentum;
   while (body.steps() < 500) body.advance(body.time() + body.stable_step(), {});
-  EXPECT_GT(body.ledger().plastic, 0.1 * body.ledger().external) << "the blow must make it yield";
+  EXPECT_GT(body.ledger().plastic, 0.1 * body.ledger().received) << "the blow must make it yield";
   EXPECT_LT((body.ledger().momentum - linear).norm(), 1e-12 * linear.norm());
   EXPECT_LT((body.ledger().angular_momentum - angular).norm(), 1e-12 * angular.norm());
 }
@@ -70,10 +70,10 @@ TEST(Conservation, EnergyBalances) {
       body.advance(time, kicks(body.wet_surface().nodes.size(), window < 30 ? 0.003 : 0.0));
     }
     const BodyLedger energies = body.ledger();
-    RecordProperty(viscous ? "balance_viscous" : "balance", std::to_string(energies.balance() / energies.external));
-    EXPECT_GT(energies.plastic, 0.05 * energies.external);
+    RecordProperty(viscous ? "balance_viscous" : "balance", std::to_string(energies.balance() / energies.received));
+    EXPECT_GT(energies.plastic, 0.05 * energies.received);
     EXPECT_EQ(energies.viscous > 0.0, viscous);
-    EXPECT_NEAR(energies.balance(), 0.0, 1e-4 * energies.external);
+    EXPECT_NEAR(energies.balance(), 0.0, 1e-4 * energies.received);
   }
 }
 
@@ -104,7 +104,7 @@ TEST(Conservation, WorkOfAWindowIsImpulseTimesMeanVelocity) {
   body.advance(interval, impulse);
   double work = 0.0;
   for (std::size_t i = 0; i < impulse.size(); ++i) work += impulse[i].dot(body.wet_positions()[i] - before[i]) / interval;
-  EXPECT_NEAR(body.ledger().external, work, 1e-12 * std::abs(work));
+  EXPECT_NEAR(body.ledger().received, work, 1e-12 * std::abs(work));
 }
 
 TEST(Conservation, ThreadsDoNotChangeABit) {

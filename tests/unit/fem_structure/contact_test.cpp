@@ -82,5 +82,60 @@ TEST(Contact, BodyBeyondThePlaneIsRefused) {
   EXPECT_THROW(Structure{settings}, std::invalid_argument);
 }
 
+/// The largest change of kinetic, stored and spent energy [-] over 60 steps of `settings`, over `scale` [J] or what loads have
+/// done.
+double worst_energy(const Settings& settings, double scale = 0) {
+  Structure body(settings);
+  const auto all = [&] {
+    const BodyLedger l = body.ledger();
+    return l.kinetic + l.elastic + l.plastic + l.viscous + l.impact - l.external;
+  };
+  const double start = all();
+  double worst = 0.0, work = 0.0;
+  for (int step = 0; step < 60; ++step) {
+    body.advance(body.time() + body.stable_step(), {});
+    work = std::max(work, std::abs(body.ledger().external));
+    worst = std::max(worst, std::abs(all() - start));
+  }
+  return worst / std::max(scale, work);
+}
+
+/// A bar of aluminium of n cells of 0.25 mm, in uniaxial strain.
+Settings struck_bar(int n) {
+  materials::Solid aluminium = elastic(2700.0, 71e9, 0.33);
+  aluminium.pressure = materials::MieGruneisenPressure{.C = 5350, .S = 1.34, .Gamma = 2.0};
+  Settings bar = plate(Vec3(0, 0, 0), Vec3(2.5e-4, 2.5e-4, n * 2.5e-4), {1, 1, n}, aluminium);
+  bar.supports = {{"x_low", {true, false, false}},
+                  {"x_high", {true, false, false}},
+                  {"y_low", {false, true, false}},
+                  {"y_high", {false, true, false}}};
+  return bar;
+}
+
+/// Bulk viscosity shortens the stable step in the step in which an impact begins.
+TEST(Contact, FirstStepKnowsTheSpeedOfAnImpact) {
+  for (const double impact : {500.0, 3000.0, 7000.0}) {
+    for (const int n : {60, 240}) {
+      Settings bar = struck_bar(n);
+      bar.initial_velocity = Vec3(0, 0, -impact);
+      const double scale = 0.5 * 2700.0 * std::pow(2.5e-4, 3) * n * impact * impact;
+      bar.planes = {{2, 0.0, true}};
+      EXPECT_LT(worst_energy(bar, scale), 0.005) << n << " cells at " << impact << " m/s";
+      // The same where a held face stops it: the velocity jumps at the start.
+      bar.planes.clear();
+      bar.supports.push_back({"z_low", {false, false, true}});
+      EXPECT_LT(worst_energy(bar, scale), 0.005) << n << " held cells at " << impact << " m/s";
+    }
+  }
+}
+
+TEST(Contact, AStepKnowsALoadThatJumps) {
+  for (const double pressure : {1e9, 5e10}) {
+    Settings bar = struck_bar(60);
+    bar.loads = {{"z_high", {0.0, 2e-7, 2.0001e-7}, {0.0, 0.0, pressure}}};
+    EXPECT_LT(worst_energy(bar), 0.01) << pressure;
+  }
+}
+
 }  // namespace
 }  // namespace undex::fem::testing

@@ -1,0 +1,140 @@
+// What a run may begin from: spherical starts, and plane waves under gravity.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "run/plane_wave_start.hpp"
+#include "run/spherical_flow.hpp"
+#include "run/spherical_start.hpp"
+#include "scenes.hpp"
+
+namespace undex::run::test {
+namespace {
+
+const std::string bubble_in_a_tank = R"(
+end_time = 1e-4
+threads = 1
+[resolution]
+spacing = 0.004
+[start]
+kind = "spherical"
+body = "bubble"
+[[bodies]]
+name = "bubble"
+shape = {type = "sphere", radius = 0.01}
+material = {law = "barotropic_gas", rho0 = 1400, p0 = 1.2e9, gamma = 2}
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [-0.06, -0.06, -0.06], high = [0.06, 0.06, 0.06]}
+subtract = ["bubble", "other"]
+material = "water-tait"
+pressure = 1e5
+[[bodies]]
+name = "other"
+shape = {type = "sphere", radius = 0.01, center = [0, 0, 0.045]}
+material = "water-tait"
+pressure = 1e5
+)";
+const std::string plate_beside = R"(
+[structure]
+shape = {type = "plate", low = [-0.06, -0.06, 0.06], high = [0.06, 0.06, 0.064]}
+cells = {x = 4, y = 4, z = 1}
+material = {rho0 = 2700, young_modulus = 7.1e10, poisson_ratio = 0.33, flow = {law = "elastic"}}
+wet = ["z_low"]
+)";
+
+std::string refusal(const std::string& text, const std::vector<scene::Override>& overrides) {
+  scene::Scene scene = read_text(text, overrides);
+  try {
+    begin_spherically(scene);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Only the charge's flow is computed until the particles take over: whatever would not stay at rest until then is refused.
+TEST(SphericalStart, RefusesWhatWouldNotRest) {
+  EXPECT_EQ(refusal(bubble_in_a_tank, {}), "");
+  const auto says = [](const std::string& text, const std::vector<scene::Override>& overrides, const char* what) {
+    EXPECT_NE(refusal(text, overrides).find(what), std::string::npos) << refusal(text, overrides);
+  };
+  says(bubble_in_a_tank, {{"bodies.other.pressure", "1.2e7"}}, "'other' begins at 1.2e+07 Pa");
+  says(bubble_in_a_tank, {{"bodies.other.velocity", "[0, 0, 10]"}}, "'other' moves");
+  const std::string coupled = bubble_in_a_tank + plate_beside;
+  EXPECT_EQ(refusal(coupled, {}), "");
+  EXPECT_EQ(refusal(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}}), "");
+  says(coupled, {{"structure.velocity", "[0, 0, 1]"}}, "velocity");
+  says(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e7]}]"}}, "a load of 1e+07 Pa");
+  EXPECT_THROW(read_text(bubble_in_a_tank, {{"start.time", "1"}}), SceneError);
+}
+
+/// A load that balances the water's pressure does not push the plate before the water is there.
+TEST(SphericalStart, LoadsWaitForTheWater) {
+  scene::Scene scene =
+      read_text(bubble_in_a_tank + plate_beside, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}});
+  begin_spherically(scene);
+  const Simulation simulation(scene);
+  EXPECT_GT(simulation.time(), 1e-6);
+  EXPECT_EQ(simulation.bodies().front()->time(), simulation.time());
+  EXPECT_EQ(simulation.bodies().front()->ledger().momentum, Vec3(0, 0, 0));
+}
+
+/// Twice as far costs a fixed number of steps more, not four times the work.
+TEST(SphericalStart, CostGrowsWithTheLogarithmOfTheWay) {
+  const scene::Scene scene = read_text(bubble_in_a_tank);
+  long steps[3];
+  int cells[3];
+  for (int k = 0; k < 3; ++k) {
+    const double outer = 0.01 * (10 << k);
+    SphericalFlow flow(scene, outer, 30);
+    flow.advance(0.8 * outer / 1500);
+    steps[k] = flow.mesh().steps();
+    cells[k] = flow.mesh().cells();
+    RecordProperty("steps_" + std::to_string(k), std::to_string(steps[k]) + " " + std::to_string(cells[k]));
+  }
+  EXPECT_LT(steps[2] - steps[1], 1.5 * (steps[1] - steps[0]));
+  EXPECT_LT(cells[2], 1.5 * cells[0]);
+}
+
+/// A plane wave on a hydrostatic column: pressures of both, and the column at rest where the wave has not come.
+TEST(PlaneWaveStart, OnAHydrostaticColumn) {
+  const std::string text = R"(
+dimension = 1
+end_time = 1e-3
+gravity = [-9810]
+[resolution]
+spacing = 0.01
+[start]
+kind = "plane_wave"
+axis = "x"
+front = -1
+peak = 1e6
+decay = 2e-4
+[[bodies]]
+name = "water"
+shape = {type = "box", low = -4, high = 0}
+material = "water-tait"
+pressure = 1e5
+level = 0
+[[walls]]
+name = "tank"
+shape = {type = "box", low = -4, high = 1}
+faces = {x_high = "open"}
+)";
+  scene::Scene scene = read_text(text);
+  begin_with_plane_wave(scene);
+  Simulation simulation(scene);
+  // 1000 g: 9.81 MPa a metre.
+  EXPECT_NEAR(simulation.fluid()->at(Vec3(-0.5, 0, 0)).pressure, 1e5 + 9.81e6 * 0.5, 0.03e6);
+  const double behind = 0.5, length = 2e-4 * plane_wave(scene).rest_sound();
+  EXPECT_NEAR(simulation.fluid()->at(Vec3(-1.5, 0, 0)).pressure, 1e5 + 9.81e6 * 1.5 + 1e6 * std::exp(-behind / length), 0.06e6);
+  run_to(simulation, 2e-4);
+  EXPECT_LT(std::abs(simulation.energy().error()), 0.002);
+  // Ahead of the wave nothing has moved.
+  EXPECT_LT(std::abs(simulation.fluid()->at(Vec3(-0.5, 0, 0)).velocity[0]), 0.02);
+}
+
+}  // namespace
+}  // namespace undex::run::test
