@@ -16,8 +16,7 @@
 namespace undex::run::test {
 namespace {
 
-/// What a scene of the matrix is made of. Lengths in mm; "up" is the last axis. Steps are short, for a plate two cells thick shows
-/// the time integrator's own error, which is of second order in the step, as it rings.
+/// What a scene of the matrix is made of. Lengths in mm; "up" is the last axis.
 struct Column {
   int dimension = 3;
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
@@ -97,8 +96,9 @@ std::string Column::text() const {
   std::ostringstream out;
   out << "end_time = 1e-3\nthreads = 1\ndimension = " << dimension << '\n';
   if (gravity) out << "gravity = " << point(0, -1e7) << '\n';
-  out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
-  if (surface) out << "solids = \"surface\"\n";
+  out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n";
+  if (plate != Plate::none) out << "[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
+  if (surface && plate != Plate::none) out << "solids = \"surface\"\n";
   if (mirrored && dimension > 1) out << "[symmetry]\nplanes = " << sides("") << '\n';
   out << "[scheme]\n";
   for (const auto& [key, value] : scheme) out << key << " = " << value << '\n';
@@ -111,7 +111,8 @@ std::string Column::text() const {
   return out.str();
 }
 
-/// One thing that a scene may have. Two of one group exclude each other.
+/// One thing that a scene may have. Two of one group exclude each other. Where the plate is stopped at once the water's step is a
+/// third: within a step it sees the plate go on (docs/equations.md, section 14, "Ledger").
 struct Feature {
   const char* group;
   const char* name;
@@ -166,8 +167,8 @@ const std::vector<Feature>& features() {
       {"symmetry", "no_symmetry", [](Column& c) { c.mirrored = false; }},
       {"gravity", "gravity", [](Column& c) { c.gravity = true; }},
       {"loads", "loads", [](Column& c) { c.pushed = true; }},
-      {"supports", "held", [](Column& c) { c.held = true; }},
-      {"planes", "rigid_plane", [](Column& c) { c.landing = c.flying = true; }},
+      {"supports", "held", [](Column& c) { c.held = true, c.scheme["courant"] = "0.03"; }},
+      {"planes", "rigid_plane", [](Column& c) { c.landing = c.flying = true, c.scheme["courant"] = "0.03"; }},
       {"motion", "flying", [](Column& c) { c.flying = true; }},
       {"walls", "no_walls", [](Column& c) { c.walls = "none"; }},
       {"walls", "no_slip_walls", [](Column& c) { c.walls = "no_slip"; }},
@@ -175,7 +176,7 @@ const std::vector<Feature>& features() {
       water("\"water-tait-cutoff\"", "cutoff"),
       water("\"water-tait-isentropic\"", "isentropic_mixture"),
       water("\"water-steinberg\"", "mie_gruneisen"),
-      water("{law = \"stiffened_gas\", rho0 = 1000, gamma = 4.4, p_inf = 6e8}", "stiffened_gas"),
+      water("{law = \"stiffened_gas\", rho0 = 1000, gamma = 4.4, p_inf = 6e8}\nenergy = 776764.706", "stiffened_gas"),
       strength("{rho0 = 2700, young_modulus = 7.1e10, poisson_ratio = 0.33, flow = {law = \"elastic\"}}", "elastic"),
       strength("\"al-6061-t6\"", "al_6061"),
       strength("\"armco-iron\"", "johnson_cook"),
@@ -193,8 +194,8 @@ const std::vector<Feature>& features() {
   return all;
 }
 
-/// Reads, starts and runs it for 4 us. Empty: it closes, or is refused with a reason; else what is wrong.
-std::string fault_of(const Column& column) {
+/// Reads, starts and runs it for 4 us. Empty: it closes, or is refused with a reason (which `refusal` then is); else what is wrong.
+std::string fault_of(const Column& column, std::string& refusal) {
   try {
     scene::Scene scene = read_text(column.text());
     if (scene.start.kind == scene::Start::Kind::spherical) begin_spherically(scene);
@@ -202,14 +203,19 @@ std::string fault_of(const Column& column) {
     Simulation simulation(scene);
     run_to(simulation, simulation.time() + 4e-6);
     std::ostringstream wrong;
-    const double momentum = simulation.momentum_error(), energy = simulation.energy().error();
+    const EnergyBalance balance = simulation.energy();
+    double known = 0;  // what central differences hold back, by their own books (core/deformable_body.hpp)
+    for (const auto& body : simulation.bodies()) known += body->ledger().integrator;
+    const int copies = column.mirrored ? 1 << (column.dimension - 1) : 1;
+    const double momentum = simulation.momentum_error(), energy = balance.error() + copies * known / balance.scale;
     if (!(simulation.mass_error() < 1e-12)) wrong << " mass " << simulation.mass_error();
     if (momentum > (column.scheme.at("precision") == "\"mixed\"" ? 1e-7 : 1e-11)) wrong << " momentum " << momentum;
     if (!(std::abs(energy) < 0.01)) wrong << " energy " << energy;
     if (const auto given = simulation.interface_impulse_error(); given && !(*given < 1e-10)) wrong << " impulse " << *given;
     return wrong.str();
-  } catch (const SceneError& refusal) {
-    return std::string(refusal.what()).size() > 20 ? "" : " refused without a reason";
+  } catch (const SceneError& error) {
+    refusal = error.what();
+    return refusal.size() > 20 ? "" : " refused without a reason";
   } catch (const std::exception& other) {
     return std::string(" ") + other.what();
   }
@@ -223,14 +229,18 @@ TEST_P(FeaturePairs, CloseOrAreRefused) {
   const Feature& first = features()[GetParam()];
   Column alone;
   first.apply(alone);
-  EXPECT_EQ(fault_of(alone), "") << first.name << '\n' << alone.text();
+  std::string refusal;
+  EXPECT_EQ(fault_of(alone, refusal), "") << first.name << '\n' << alone.text();
+  EXPECT_EQ(refusal, "") << first.name;
   for (std::size_t k = GetParam() + 1; k < features().size(); ++k) {
     const Feature& second = features()[k];
     if (std::string(first.group) == second.group) continue;
     Column pair;
     first.apply(pair);
     second.apply(pair);
-    EXPECT_EQ(fault_of(pair), "") << first.name << " and " << second.name;
+    refusal.clear();
+    EXPECT_EQ(fault_of(pair, refusal), "") << first.name << " and " << second.name;
+    if (!refusal.empty()) RecordProperty(second.name, refusal.substr(refusal.find(": ") + 1));
   }
 }
 
