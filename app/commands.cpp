@@ -12,7 +12,10 @@
 #include "judge/judge.hpp"
 #include "materials/library.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
+#include "output/run_folder.hpp"
 #include "run/describe.hpp"
+#include "run/resume.hpp"
 #include "run/run.hpp"
 #include "scene/key_tables.hpp"
 #include "scene/scene.hpp"
@@ -59,6 +62,48 @@ std::vector<fs::path> case_folders() {
   return folders;
 }
 
+/// The verdict, its metrics in the record. Where it cannot be had the run has failed, and `undex judge` may try again.
+judge::Verdict verdict_of(const judge::Judge& judge, run::Result& result) {
+  judge::Verdict verdict;
+  if (result.failure) return verdict;
+  try {
+    verdict = judge.verdict(result.evidence);
+  } catch (const std::exception& error) {
+    result.failure = std::current_exception();
+    result.record.status = "failed";
+    result.record.message +=
+        (result.record.message.empty() ? "" : "; ") + std::string("computed, but not judged: ") + error.what();
+  }
+  result.record.metrics = verdict.metrics;
+  result.record.missing = verdict.missing;
+  return verdict;
+}
+
+run::RunOptions options_for(const scene::Scene& scene, const judge::Judge& judge, const fs::path& folder, int verbosity) {
+  run::RunOptions options;
+  options.output = folder;
+  options.threads = scene.fluid.numerics.threads;
+  options.verbosity = verbosity;
+  options.program = version_line();
+  options.numerics = numerics_line();
+  options.last_fields = judge.last_fields();
+  return options;
+}
+
+int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, const run::RunOptions& options) {
+  run::Result result = run::compute(scene, options);
+  const judge::Verdict verdict = verdict_of(judge, result);
+  output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
+  judge::write_tables(options.output, verdict);
+  if (options.verbosity >= 0)
+    std::printf("%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
+                judge::missing_text(verdict.missing).c_str());
+  if (result.failure) std::rethrow_exception(result.failure);  // the record is kept all the same
+  if (!result.not_saved.empty()) throw FileError(result.not_saved);
+  if (result.record.status == "stopped") throw NumericalStop(result.record.message);
+  return result.signal == 0 ? exit_done : 128 + result.signal;
+}
+
 template <class Set>
 void print_set(const Set& set) {
   std::printf("%s\n  %s\n ", set.name.c_str(), set.source.c_str());
@@ -81,27 +126,37 @@ void print_set(const Set& set) {
 int run_scene(const RunArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);
   const judge::Judge judge(scene);  // a reference that cannot be read is found now
-  run::RunOptions options;
-  options.output = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
-  options.threads = scene.fluid.numerics.threads;
-  options.verbosity = arguments.verbosity;
-  options.scene_text = whole_text(scene.file);
-  options.program = version_line();
-  options.last_fields = judge.last_fields();
-  output::require_unused_folder(options.output, arguments.force);  // made when the scene is known to be sound
+  const fs::path folder = arguments.output.empty() ? fs::path("out") / scene.name : fs::path(arguments.output);
+  run::RunOptions options = options_for(scene, judge, folder, arguments.verbosity);
+  if (fs::is_regular_file(scene.file)) options.scene_text = whole_text(scene.file);  // of a pipe nothing is left
+  const output::FolderLock lock(folder, "undex run");
+  if (!arguments.force && output::is_unfinished_run(folder))
+    throw UsageError(folder.string() + " holds an unfinished run: undex resume " + folder.string() +
+                     " goes on with it; --force begins anew, and -o names another folder");
+  output::require_unused_folder(folder, arguments.force);
+  return compute_and_judge(scene, judge, options);
+}
 
-  run::Result result = run::compute(scene, options);
-  const judge::Verdict verdict = judge.verdict(result.evidence);
-  result.record.metrics = verdict.metrics;
-  result.record.missing = verdict.missing;
-  output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
-  judge::write_tables(options.output, verdict);
-  if (options.verbosity >= 0)
-    std::printf("%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
-                judge::missing_text(verdict.missing).c_str());
-  if (!result.not_saved.empty()) throw FileError(result.not_saved);  // the record is kept all the same
-  if (result.record.status == "stopped") throw NumericalStop(result.record.message);
-  return result.signal == 0 ? exit_done : 128 + result.signal;
+int resume_run(const ResumeArguments& arguments) {
+  const fs::path& folder = arguments.folder;
+  if (std::error_code ignored; !fs::is_directory(folder, ignored))
+    throw UsageError(folder.string() + ": no such folder; name the output folder of a run");
+  const output::FolderLock lock(folder, "undex resume");
+  const run::Continued continued = run::find_checkpoint(folder, numerics_line());
+  for (const std::string& warning : continued.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  const scene::Scene scene =
+      read_scene({.scene = folder / "resolved.toml", .overrides = arguments.overrides, .threads = arguments.threads});
+  if (run::is_done(folder, continued, scene)) {
+    std::printf("%s: done at %g s; --tend T goes on to a later end\n", folder.c_str(), continued.checkpoint->title().time);
+    return exit_done;
+  }
+  run::require_same_scene(continued, scene);
+  const judge::Judge judge(scene);
+  run::RunOptions options = options_for(scene, judge, folder, arguments.verbosity);
+  options.scene_text = output::text_of(folder / "scene.toml").value_or(scene::to_toml(scene));
+  if (continued.checkpoint) options.checkpoint = &*continued.checkpoint;
+  if (arguments.verbosity >= 0) std::printf("%s\n", continued.words.c_str());
+  return compute_and_judge(scene, judge, options);
 }
 
 int check_scene(const SceneArguments& arguments) {

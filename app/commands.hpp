@@ -20,6 +20,13 @@ struct RunArguments : SceneArguments {
 };
 
 int run_scene(const RunArguments& arguments);
+struct ResumeArguments {
+  std::filesystem::path folder;
+  std::vector<std::string> overrides;
+  int threads = 0, verbosity = 0;
+};
+
+int resume_run(const ResumeArguments& arguments);
 int check_scene(const SceneArguments& arguments);
 int print_materials();
 int write_keys(const std::filesystem::path& page);

@@ -3,12 +3,16 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
 
 #include "app/commands.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "judge/rejudge.hpp"
+#include "run/run.hpp"
+#include "sph_fluid/pairs/cpu_level.hpp"
 #include "study/compare_runs.hpp"
 #include "study/study.hpp"
 
@@ -46,6 +50,31 @@ int dispatch(int argc, char** argv) {
          "-v,--verbose", [&] { run_arguments.verbosity = 1; }, "print every step")
       ->excludes(quiet);
   run->add_flag("--force", run_arguments.force, "write into an output folder that is not empty");
+
+  ResumeArguments resume_arguments;
+  CLI::App* resume =
+      program.add_subcommand("resume", "go on with a run that was cut, from its newest checkpoint, to the same bits");
+  resume->add_option("run", resume_arguments.folder, "output folder of the run")->required()->type_name("RUN");
+  resume
+      ->add_option_function<std::string>(
+          "-P,--set", [&](const std::string& text) { resume_arguments.overrides.push_back(text); },
+          "key=value: what does not touch the state may change: output, comparison, threads, end_time, new probes")
+      ->trigger_on_parse();
+  resume
+      ->add_option_function<std::string>(
+          "--tend", [&](const std::string& text) { resume_arguments.overrides.push_back("end_time=" + text); },
+          "a later end time [s]")
+      ->trigger_on_parse();
+  resume->add_option("-j,--threads", resume_arguments.threads, "threads; 0: the scene's choice, or all the machine has")
+      ->check(CLI::Range(0, 4096));
+  CLI::Option* quiet_resume = resume->add_flag_callback(
+      "-q,--quiet", [&] { resume_arguments.verbosity = -1; }, "print nothing but errors");
+  resume
+      ->add_flag_callback(
+          "-v,--verbose", [&] { resume_arguments.verbosity = 1; }, "print every step")
+      ->excludes(quiet_resume);
+  resume->footer(
+      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). docs/outputs.md");
 
   SceneArguments check_arguments;
   CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
@@ -118,7 +147,9 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? exit_done : exit_usage;  // prints help or what is wrong
   }
+  if (const std::string wrong = sph::wrong_cpu_level(); !wrong.empty()) throw UsageError(wrong);
   if (*run) return run_scene(run_arguments);
+  if (*resume) return resume_run(resume_arguments);
   if (*check) return check_scene(check_arguments);
   if (*judgement) {
     judge::rejudge(judge_options);
@@ -145,12 +176,25 @@ int failed(ExitCode code, const char* message) {
   return code;
 }
 
+/// Memory may run out where no exception can pass, such as in what a library does to tidy up: the end is that of any lack of it.
+[[noreturn]] void end_where_no_exception_passes() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    failed(exit_internal, run::out_of_memory);
+    std::_Exit(exit_internal);
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // A file that may not grow and a reader of stdout that has left are errors of a write, not ends of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::set_terminate(end_where_no_exception_passes);
   try {
     return dispatch(argc, argv);
   } catch (const SceneError& error) {
@@ -159,10 +203,13 @@ int main(int argc, char** argv) {
     return failed(exit_usage, error.what());
   } catch (const NumericalStop& error) {
     return failed(exit_numerics, (std::string("the numerics stopped the run: ") + error.what()).c_str());
+  } catch (const RestartError& error) {
+    return failed(exit_restart, error.what());
   } catch (const FileError& error) {
     return failed(exit_internal, error.what());
   } catch (const std::bad_alloc&) {
-    return failed(exit_internal, "out of memory; take a larger spacing, or symmetry planes");
+    failed(exit_internal, run::out_of_memory);
+    std::_Exit(exit_internal);  // libraries that tidy up at the end take memory for it
   } catch (const std::exception& error) {
     return failed(exit_internal, (std::string("internal error: ") + error.what()).c_str());
   }

@@ -11,6 +11,9 @@ const char* const compiler = "clang " __clang_version__;
 const char* const compiler = "g++ " __VERSION__;
 #endif
 
+/// Raised with every change after which a scene gives other digits: a checkpoint of before is then refused.
+constexpr int numerics_version = 1;
+
 std::string build_type() { return *UNDEX_BUILD_TYPE ? UNDEX_BUILD_TYPE : "none"; }
 
 }  // namespace
@@ -19,6 +22,10 @@ std::string version_line() {
   const std::string git = UNDEX_GIT;
   return std::string("undex ") + UNDEX_VERSION + (git.empty() ? "" : " (" + git + ")") + ", " + compiler + ", " + build_type() +
          ", " + sph::cpu_level();
+}
+
+std::string numerics_line() {
+  return "numerics " + std::to_string(numerics_version) + ", " + compiler + ", " + build_type() + ", " + sph::cpu_level();
 }
 
 // None of these texts holds a character that JSON would escape.

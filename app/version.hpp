@@ -10,4 +10,7 @@ std::string version_line();
 /// The same as a JSON object.
 std::string version_json();
 
+/// What the digits of a run depend on beside its scene: the version of the numerics, compiler, build type and instruction set.
+std::string numerics_line();
+
 }  // namespace undex::app

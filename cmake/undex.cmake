@@ -1,12 +1,19 @@
 # The few rules that every target of the project shares.
 add_library(undex_rules INTERFACE)
 target_include_directories(undex_rules INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(undex_rules INTERFACE -Wall -Wextra -Wpedantic -Wshadow=local)
+target_compile_options(undex_rules INTERFACE -Wall -Wextra -Wpedantic $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 # Vectorisable arithmetic without giving up NaN checks: no errno from math functions, no floating-point traps.
 target_compile_options(undex_rules INTERFACE -fno-math-errno -fno-trapping-math)
 if(UNDEX_SANITIZE)
   target_compile_options(undex_rules INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(undex_rules INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(UNDEX_FUZZ)
+  set(sanitizers address,undefined,float-cast-overflow)
+  target_compile_options(undex_rules INTERFACE -fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
+  target_link_options(undex_rules INTERFACE -fsanitize=${sanitizers})
 endif()
 
 # Threads everywhere: precompiled headers serve only files that are compiled with the same options.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/point_values.hpp"
+#include "core/state.hpp"
 #include "core/surface.hpp"
 #include "core/timers.hpp"
 
@@ -100,6 +101,9 @@ class DeformableBody {
   /// Where the point of the surface is [m], whenever asked, that lies nearest to a place at the start; empty where none lies
   /// within `reach` [m]. Valid as long as the body is. Here: on the wet faces.
   virtual std::function<Vec3()> follow_surface(const Vec3& reference_position, double reach) const;
+
+  /// What the next step goes on from, and what others read until then.
+  virtual void visit_state(StateVisitor& state) = 0;
 
   virtual BodyLedger ledger() const = 0;
   virtual std::span<const Vec3> positions() const = 0;     ///< of nodes or particles [m]

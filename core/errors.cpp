@@ -5,13 +5,22 @@
 namespace undex {
 namespace {
 
+/// A message of a line or two, whatever was written in the file.
+std::string shortened(const std::string& message) {
+  constexpr std::size_t most = 2000;
+  return message.size() > most ? message.substr(0, most) + "..." : message;
+}
+
 std::string joined(const std::string& file, const std::vector<Finding>& findings) {
+  constexpr std::size_t most = 100;  // more than anybody mends at once
   std::string text;
-  for (const Finding& finding : findings) {
+  for (std::size_t f = 0; f < findings.size(); ++f) {
+    const Finding& finding = findings[f];
     if (!text.empty()) text += '\n';
+    if (f == most) return text + file + ": and " + std::to_string(findings.size() - most) + " more; mend these first";
     text += file;
     if (finding.where.line > 0) text += ':' + std::to_string(finding.where.line) + ':' + std::to_string(finding.where.column);
-    text += ": " + finding.message;
+    text += ": " + shortened(finding.message);
   }
   return text;
 }

@@ -50,6 +50,18 @@ class FileError : public std::runtime_error {
 /// The numerics left their domain. The message names step, time, field, particle or cell, its position, and what set dt.
 class NumericalStop : public std::runtime_error {
  public:
+  /// `resumable`: the state that is left is whole, so that others may go on from it with new rates.
+  explicit NumericalStop(const std::string& message, bool resumable = false)
+      : std::runtime_error(message), resumable_(resumable) {}
+  bool resumable() const { return resumable_; }
+
+ private:
+  bool resumable_;
+};
+
+/// A run cannot be gone on with from what is on disk; the message says what differs, and the remedy.
+class RestartError : public std::runtime_error {
+ public:
   using std::runtime_error::runtime_error;
 };
 

@@ -35,6 +35,8 @@ class PassTimers {
     return Running(*this, passes_.size() - 1);
   }
   const std::vector<std::pair<std::string, double>>& seconds() const { return passes_; }
+  /// Goes on from what a run has cost before.
+  void set(std::vector<std::pair<std::string, double>> seconds) { passes_ = std::move(seconds); }
 
  private:
   std::vector<std::pair<std::string, double>> passes_;

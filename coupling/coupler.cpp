@@ -124,6 +124,13 @@ Coupler::Window Coupler::advance(double end) {
   return window;
 }
 
+void Coupler::visit_state(StateVisitor& state) {
+  state("impulse given", ledger_.impulse_given);
+  state("impulse received", ledger_.impulse_received);
+  state("impulse exchanged", ledger_.impulse_exchanged);
+  state("timers", timers_);
+}
+
 InterfaceLedger Coupler::ledger() const {
   InterfaceLedger ledger = ledger_;
   ledger.work_given = fluid_.ledger().wall_work;

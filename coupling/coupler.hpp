@@ -51,6 +51,8 @@ class Coupler {
   /// One window, not beyond time `end` [s].
   Window advance(double end);
 
+  void visit_state(StateVisitor& state);
+
   InterfaceLedger ledger() const;
   const WetWall& wall() const { return wall_; }
   const PassTimers& timers() const { return timers_; }

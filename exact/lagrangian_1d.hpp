@@ -110,8 +110,8 @@ class Lagrangian1D {
 
   /// Merges neighbouring cells of a layer where the two together are no wider than `width` [m]: an outgoing wave grows longer and
   /// asks for less. Mass, momentum (but at a rigid end) and the sum of kinetic and internal energy stay what they are; what the
-  /// node between two cells had of motion beyond its neighbours becomes their heat. Cells that nothing has reached, and layers that
-  /// still burn, are left alone.
+  /// node between two cells had of motion beyond its neighbours becomes their heat. Cells that nothing has reached, and layers
+  /// that still burn, are left alone.
   void coarsen(double width);
 
   double time() const { return time_; }

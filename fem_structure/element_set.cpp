@@ -209,6 +209,18 @@ double ElementSet::elastic_energy() const { return sum(elastic_); }
 double ElementSet::plastic_work() const { return sum(plastic_); }
 double ElementSet::viscous_work() const { return sum(viscous_); }
 
+void ElementSet::visit_state(StateVisitor& state) {
+  state("elastic energy", elastic_);
+  state("plastic work", plastic_);
+  state("viscous work", viscous_);
+  state("frequency", frequency_);
+  state("bulk modulus of the frequency", frequency_bulk_);
+  state("strain since the frequency", strain_since_);
+  state("compression rate", compression_rate_);
+  state("critical step", critical_step_);
+  state("mode", mode_);
+}
+
 std::size_t ElementSet::shared_memory_bytes() const {
   std::size_t values = 0;
   for (const auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/state.hpp"
 #include "core/vector.hpp"
 #include "fem_structure/grid.hpp"
 #include "materials/solid.hpp"
@@ -53,6 +54,7 @@ class ElementSet {
   /// Share of the fracture strain spent, 1: failed; 0 where the material cannot fail.
   virtual double damage(std::size_t cell, int q) const = 0;
   virtual std::size_t memory_bytes() const = 0;
+  virtual void visit_state(StateVisitor& state);
 
   /// Internal force [N] of a small displacement u [m] from positions x by the elastic law alone: the linear stiffness,
   /// for the highest frequency and for tests.

@@ -285,6 +285,19 @@ Mat3 Elements::stress(std::size_t cell, int q) const {
   return full - pressure_[cell] * Mat3::Identity();
 }
 
+void Elements::visit_state(StateVisitor& state) {
+  ElementSet::visit_state(state);
+  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator_[k]);
+  state("plastic strain", plastic_strain_);
+  state("temperature", temperature_);
+  state("damage", damage_);
+  state("weight", weight_);
+  state("pressure", pressure_);
+  state("energy", energy_);
+  state("viscous pressure", viscous_pressure_);
+  state("volume", volume_);
+}
+
 std::size_t Elements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& component : deviator_) values += component.size();

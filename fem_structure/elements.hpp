@@ -35,6 +35,7 @@ class Elements final : public ElementSet {
   double damage(std::size_t cell, int q) const override { return damage_.empty() ? 0.0 : damage_[8 * cell + q]; }
   double volume(std::size_t cell) const { return volume_[cell]; }
   std::size_t memory_bytes() const override;
+  void visit_state(StateVisitor& state) override;
 
  private:
   using Lanes = materials::EightPoints;  ///< one value per quadrature point

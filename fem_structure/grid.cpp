@@ -7,7 +7,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/grid_tools_cache.h>
 #include <deal.II/grid/tria.h>
@@ -17,9 +16,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
+#include "core/gmsh_file.hpp"
 #include "fem_structure/blocks.hpp"
 
 namespace undex::fem {
@@ -34,54 +33,65 @@ constexpr std::array<unsigned, 4> around_face{0, 1, 3, 2};
 dealii::Point<3> point(const Vec3& x) { return {x[0], x[1], x[2]}; }
 Vec3 vector(const dealii::Point<3>& x) { return {x[0], x[1], x[2]}; }
 
-std::string first_lines(const std::string& text, std::size_t length = 400) {
-  std::string shortened;
-  for (char c : text) shortened += c == '\n' ? ' ' : c;
-  return shortened.substr(0, length);
-}
-
-/// Sets the boundary ids 1, 2, ... of the named faces; what is left without a name keeps 0.
-void create(Triangulation& triangulation, const Blocks& blocks) {
-  std::vector<dealii::Point<3>> vertices;
-  vertices.reserve(blocks.vertices.size());
-  for (const Vec3& x : blocks.vertices) vertices.push_back(point(x));
-  std::vector<dealii::CellData<3>> cells(blocks.cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c) cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].end());
-  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
-
-  std::map<std::array<unsigned, 4>, int> name_of;
-  for (const Blocks::Face& face : blocks.faces) {
-    auto key = face.vertices;
-    std::sort(key.begin(), key.end());
-    name_of[key] = face.name;
-  }
+/// Faces on the boundary are given the ids of `id_of`, by their vertices in order; others keep 0.
+void name_faces(Triangulation& triangulation, const std::map<std::array<unsigned, 4>, unsigned>& id_of) {
   for (const auto& cell : triangulation.active_cell_iterators())
     for (const auto& face : cell->face_iterators())
       if (face->at_boundary()) {
         std::array<unsigned, 4> key;
         for (unsigned v = 0; v < 4; ++v) key[v] = face->vertex_index(v);
         std::sort(key.begin(), key.end());
-        const auto found = name_of.find(key);
-        if (found != name_of.end()) face->set_boundary_id(found->second + 1);
+        const auto found = id_of.find(key);
+        if (found != id_of.end()) face->set_boundary_id(found->second);
       }
 }
 
-void read_gmsh(Triangulation& triangulation, const GmshMesh& mesh, const std::string& who) {
-  std::ifstream file(mesh.path);
-  if (!file)
-    throw std::invalid_argument(who + ": cannot open the mesh file '" + mesh.path +
-                                "'; give the path of a gmsh .msh file, relative to where the program runs or absolute");
-  try {
-    dealii::GridIn<3> reader;
-    reader.attach_triangulation(triangulation);
-    reader.read_msh(file);
-  } catch (const std::exception& error) {
-    throw std::invalid_argument(who + ": '" + mesh.path +
-                                "' is not a hexahedral gmsh mesh (format 2 or 4, ASCII): " + first_lines(error.what()));
+std::vector<dealii::Point<3>> points(const std::vector<Vec3>& places) {
+  std::vector<dealii::Point<3>> vertices;
+  vertices.reserve(places.size());
+  for (const Vec3& x : places) vertices.push_back(point(x));
+  return vertices;
+}
+
+/// Named faces have the boundary ids 1, 2, ...; what is left without a name keeps 0.
+void create(Triangulation& triangulation, const Blocks& blocks) {
+  std::vector<dealii::CellData<3>> cells(blocks.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].end());
+  triangulation.create_triangulation(points(blocks.vertices), cells, dealii::SubCellData());
+  std::map<std::array<unsigned, 4>, unsigned> id_of;
+  for (const Blocks::Face& face : blocks.faces) {
+    auto key = face.vertices;
+    std::sort(key.begin(), key.end());
+    id_of[key] = unsigned(face.name) + 1;
   }
-  if (triangulation.n_active_cells() == 0 || !triangulation.all_reference_cells_are_hyper_cube())
-    throw std::invalid_argument(who + ": '" + mesh.path +
-                                "' must hold hexahedra only; mesh with recombined, transfinite volumes in gmsh");
+  name_faces(triangulation, id_of);
+}
+
+/// A mesh that was checked when it was read: deal.II turns mirrored cells and orders them alike.
+void create(Triangulation& triangulation, const HexahedralMesh& mesh) {
+  std::vector<dealii::CellData<3>> cells(mesh.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (unsigned i = 0; i < 8; ++i) cells[c].vertices[dealii::GeometryInfo<3>::ucd_to_deal[i]] = unsigned(mesh.cells[c][i]);
+  const std::vector<dealii::Point<3>> vertices = points(mesh.nodes);
+  dealii::GridTools::invert_cells_with_negative_measure(vertices, cells);
+  dealii::GridTools::consistently_order_cells(cells);
+  triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+  std::map<std::array<unsigned, 4>, unsigned> id_of;
+  for (const HexahedralMesh::Face& face : mesh.faces) {
+    std::array<unsigned, 4> key;
+    for (int v = 0; v < 4; ++v) key[v] = unsigned(face.nodes[v]);
+    std::sort(key.begin(), key.end());
+    id_of[key] = unsigned(face.id);
+  }
+  name_faces(triangulation, id_of);
+}
+
+HexahedralMesh read_mesh(const GmshMesh& mesh, const std::string& who) {
+  try {
+    return read_gmsh(mesh.path);
+  } catch (const std::invalid_argument& mistake) {
+    throw std::invalid_argument(who + ": " + mistake.what());
+  }
 }
 
 void take_reference_cell(const dealii::FE_Q<3>& element, const dealii::QGauss<3>& rule, ReferenceCell& reference) {
@@ -130,7 +140,7 @@ Mesher::Mesher(const Settings& settings) : held_(std::make_unique<Held>()) {
   std::vector<std::string> names;
   const auto build = [&](const auto& mesh) {
     if constexpr (std::is_same_v<std::decay_t<decltype(mesh)>, GmshMesh>) {
-      read_gmsh(triangulation, mesh, who);
+      create(triangulation, mesh.read ? *mesh.read : read_mesh(mesh, who));
     } else {
       const Blocks blocks = build_blocks(mesh, settings.symmetry_axes, who);
       create(triangulation, blocks);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
 
+#include "core/hexahedral_mesh.hpp"
 #include "core/record.hpp"
 #include "core/shapes.hpp"
 #include "core/vector.hpp"
@@ -55,12 +57,13 @@ struct PlateMesh {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< [m]
   std::array<int, 3> cells{1, 1, 1};
 };
-/// Hexahedral mesh read by gmsh's .msh; faces are named by their physical (boundary) id as text: "1", "2", ...
+/// Hexahedral mesh of gmsh's .msh; faces are named by their physical (boundary) id as text: "1", "2", ... (without one "0").
 struct GmshMesh {
   static constexpr const char* name = "gmsh";
   static constexpr const char* summary = "a mesh with its own cells; its faces are its physical ids as text, \"1\", \"2\", ...";
   static constexpr bool has_wall = false;
   std::string path;
+  std::shared_ptr<const HexahedralMesh> read = nullptr;  ///< what the file holds; empty: not read yet
 };
 using Mesh = std::variant<TubeMesh, PlateMesh, RodMesh, GmshMesh>;
 

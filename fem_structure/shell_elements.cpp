@@ -631,6 +631,21 @@ double ShellElements::pressure(std::size_t cell) const {
   return mean;
 }
 
+void ShellElements::visit_state(StateVisitor& state) {
+  ElementSet::visit_state(state);
+  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator_[k]);
+  state("plastic strain", plastic_strain_);
+  state("temperature", temperature_);
+  state("damage", damage_);
+  state("weight", weight_);
+  state("pressure", pressure_);
+  state("energy", energy_);
+  state("viscous pressure", viscous_pressure_);
+  state("dilatation", dilatation_);
+  state("residual", residual_);
+  state("bulk modulus", bulk_);
+}
+
 std::size_t ShellElements::memory_bytes() const {
   std::size_t values = 0;
   for (const auto& field : deviator_) values += field.size();

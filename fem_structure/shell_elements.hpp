@@ -39,6 +39,7 @@ class ShellElements final : public ElementSet {
   double temperature(std::size_t cell, int q) const override { return temperature_[at(cell, q)]; }
   double damage(std::size_t cell, int q) const override { return damage_.empty() ? 0.0 : damage_[at(cell, q)]; }
   std::size_t memory_bytes() const override;
+  void visit_state(StateVisitor& state) override;
 
  private:
   using Lanes = materials::EightPoints;  ///< four points of one layer, then four of the next

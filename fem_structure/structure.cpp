@@ -330,6 +330,28 @@ struct Structure::Implementation {
     integrator_held = held_back(dt);
   }
 
+  void visit_state(StateVisitor& state) {
+    state("time", time);
+    state("steps", steps);
+    state("last step", last_step);
+    state("received work", received_work);
+    state("load work", load_work);
+    state("load impulse", load_impulse);
+    state("integrator jumps", integrator_jumps);
+    state("integrator held", integrator_held);
+    state("impact loss", impact_loss);
+    state("plane impulse", plane_impulse);
+    state("position", position);
+    state("velocity", velocity);
+    state("acceleration", acceleration);
+    state("internal force", internal_force);
+    state("load force", load_force);
+    state("impulse force", impulse_force);
+    state.part("elements", [&] { elements->visit_state(state); });
+    state("timers", timers);
+    if (state.restores()) show_wet_motion();
+  }
+
   Vec3 center(std::size_t cell) const {
     Vec3 x = Vec3::Zero();
     for (int node : grid.cells[cell]) x += grid.nodes[node] / 8.0;
@@ -374,8 +396,8 @@ struct Structure::Implementation {
     }
   }
 
-  /// The stable step; or, where cells are about to close so much faster than they did (an impact, a load that jumps) that it would
-  /// not be stable, the one that then is.
+  /// The stable step; or, where cells are about to close so much faster than they did (an impact, a load that jumps) that it
+  /// would not be stable, the one that then is.
   double longest_step() {
     const double stable = stable_step();
     find_coming_velocity(stable);
@@ -437,6 +459,8 @@ std::span<const double> Structure::wet_masses() const { return self_->wet_mass; 
 double Structure::stable_step() const { return self_->stable_step(); }
 std::string Structure::stable_step_owner() const { return self_->owner(); }
 void Structure::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
+
+void Structure::visit_state(StateVisitor& state) { self_->visit_state(state); }
 
 BodyLedger Structure::ledger() const {
   BodyLedger ledger;

@@ -46,6 +46,8 @@ class Structure : public DeformableBody {
   BodyPoint locate(const Vec3& reference_position) const override;
   MaterialPoint read(const BodyPoint& point) const override;
 
+  void visit_state(StateVisitor& state) override;
+
   BodyLedger ledger() const override;
   Vec3 plane_impulse() const;  ///< received from the rigid planes since the start [N s]
   std::span<const Vec3> positions() const override;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "output/files.hpp"
 #include "output/text_table.hpp"
 
 namespace undex::judge {
@@ -170,6 +171,7 @@ class Grid {
 }  // namespace
 
 ReferenceTable read_reference_table(const std::filesystem::path& path) {
+  output::require_file(path);
   std::ifstream file(path);
   if (!file) throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the reference table's path");
   ReferenceTable table;

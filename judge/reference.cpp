@@ -9,6 +9,8 @@ namespace undex::judge {
 
 std::vector<output::HistoryColumn> read_reference_history(const std::filesystem::path& path) {
   std::vector<output::HistoryColumn> history = output::read_history(path);
+  if (history.front().series.t.size() < 2)
+    throw FileError(path.string() + ": fewer than two samples, so no history; mend the file");
   for (const output::HistoryColumn& column : history) try {
       output::require_valid(column.series);
     } catch (const std::invalid_argument& error) {
@@ -18,11 +20,13 @@ std::vector<output::HistoryColumn> read_reference_history(const std::filesystem:
 }
 
 Reference read_reference(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::error_code ignored;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, ignored)) file.open(path);  // of a pipe there is no second reading
   std::string header;
-  while (std::getline(file, header) && (header.empty() || header[0] == '#')) {
+  while (file.is_open() && std::getline(file, header) && (header.empty() || header[0] == '#')) {
   }
-  if (!file)
+  if (!file.is_open() || !file)
     throw FileError(path.string() + ": cannot be read as a reference; give a CSV file, such as those in cases/*/reference");
   if (header.starts_with("metric,")) return {.table = read_reference_table(path), .history = {}};
   if (header.starts_with("time")) return {.table = {}, .history = read_reference_history(path)};

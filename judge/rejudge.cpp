@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "judge/judge.hpp"
+#include "output/folder_lock.hpp"
 #include "output/run_folder.hpp"
 #include "scene/document.hpp"
 
@@ -45,10 +46,9 @@ auto as_usage(const Read& read) {
 
 void rejudge(const RejudgeOptions& options) {
   const fs::path& run = options.run;
-  const Reference instead = as_usage([&] {
-    output::require_finished_run(run);
-    return options.reference.empty() ? Reference{} : read_reference(options.reference);
-  });
+  as_usage([&] { output::require_finished_run(run); });
+  const output::FolderLock lock(run, "undex judge");
+  const Reference instead = as_usage([&] { return options.reference.empty() ? Reference{} : read_reference(options.reference); });
   const Judged judged = as_usage([&] {
     return Judged{.scene = scene_of(run, instead.table ? options.reference : fs::path()),
                   .evidence = output::read_evidence(run / "evidence.h5")};

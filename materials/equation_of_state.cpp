@@ -11,6 +11,10 @@ bool is_gas(const FluidLaw& law) {
   return std::visit([](const auto& l) { return l.is_gas; }, law);
 }
 
+double least_pressure(const FluidLaw& law) {
+  return std::visit([](const auto& l) { return l.least_pressure(); }, law);
+}
+
 double density_at(const FluidLaw& law, double pressure, double energy) {
   return std::visit([&](const auto& l) { return l.density_at(pressure, energy); }, law);
 }

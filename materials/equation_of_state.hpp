@@ -29,6 +29,7 @@ concept IsFluidLaw = std::constructible_from<Law, const typename Law::Parameters
   { law.evaluate(rho, energy) } -> std::same_as<PressureSound>;
   { law.void_fraction(rho, energy) } -> std::same_as<double>;
   { law.density_at(pressure, energy) } -> std::same_as<double>;
+  { law.least_pressure() } -> std::same_as<double>;  // that it carries [Pa]: negative where it bears tension
 };
 /// A barotropic law also knows the energy of compression, de/drho = p/rho^2 [J/kg].
 template <class Law>
@@ -45,6 +46,8 @@ using FluidLaw = FluidLaws<TaitWater, BarotropicGas, IdealGas, StiffenedGas, Jwl
 bool uses_energy(const FluidLaw& law);
 /// Does the smoothing length of a body follow its density, unless the scene says otherwise?
 bool is_gas(const FluidLaw& law);
+/// The least pressure [Pa] that the law carries: what it cavitates at, 0 of gases, a tension where the law goes on into it.
+double least_pressure(const FluidLaw& law);
 /// Density [kg/m^3] at which the law gives `pressure` [Pa] at specific energy `energy` [J/kg]; throws
 /// std::domain_error naming the law and the attainable range when there is none.
 double density_at(const FluidLaw& law, double pressure, double energy);

@@ -27,6 +27,7 @@ class BarotropicGas {
   /// the work that the gas can still do.
   double barotropic_energy(double rho) const;
   double void_fraction(double, double = 0.0) const { return 0.0; }
+  double least_pressure() const { return 0.0; }
   /// Density [kg/m^3] at `pressure` [Pa]; throws std::domain_error unless the pressure is positive.
   double density_at(double pressure, double /*energy*/ = 0.0) const;
 
@@ -64,6 +65,7 @@ class IdealGas {
   const Parameters& parameters() const { return p_; }
   PressureSound evaluate(double rho, double energy) const;
   double void_fraction(double, double = 0.0) const { return 0.0; }
+  double least_pressure() const { return 0.0; }
   /// Density [kg/m^3] at `pressure` [Pa] and `energy` [J/kg]; throws std::domain_error unless both are
   /// positive.
   double density_at(double pressure, double energy) const;

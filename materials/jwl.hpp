@@ -33,6 +33,7 @@ class Jwl {
   /// dp/drho|e + p/rho^2 dp/de|rho, guarded to stay positive where a state has no energy left.
   PressureSound evaluate(double rho, double energy) const;
   double void_fraction(double, double = 0.0) const { return 0.0; }
+  double least_pressure() const { return 0.0; }
   /// Density [kg/m^3] at `pressure` [Pa] and `energy` [J/kg], the least one where there are several; searched
   /// between 1e-6 rho0 and 4 rho0. Throws std::domain_error where there is none.
   double density_at(double pressure, double energy) const;

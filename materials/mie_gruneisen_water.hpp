@@ -49,6 +49,8 @@ class MieGruneisenWater {
   /// Volume fraction of vapour (without mass) in [0, 1]; 0 at and above the density at which the liquid of
   /// that energy [J/kg] reaches p_floor, always 0 without cavitation.
   double void_fraction(double rho, double energy = 0.0) const;
+  /// Least pressure [Pa]: that of the cut-off; without one there is none, and the answer is -1e30.
+  double least_pressure() const { return p_.cavitation == Cavitation::none ? -1e30 : p_.p_floor; }
   /// Density [kg/m^3] at `pressure` [Pa] and `energy` [J/kg], the least one where there are several; at
   /// p_floor the cut-off density. Searched up to twice rho0; throws std::domain_error where there is none.
   double density_at(double pressure, double energy) const;

@@ -25,6 +25,7 @@ class StiffenedGas {
   const Parameters& parameters() const { return p_; }
   PressureSound evaluate(double rho, double energy) const;
   double void_fraction(double, double = 0.0) const { return 0.0; }
+  double least_pressure() const { return -p_.p_inf; }
   /// Density [kg/m^3] at `pressure` [Pa] and `energy` [J/kg]; throws std::domain_error unless the pressure is
   /// above -gamma p_inf and the energy positive.
   double density_at(double pressure, double energy) const;

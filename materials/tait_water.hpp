@@ -70,6 +70,8 @@ class TaitWater {
   /// Volume fraction of vapour in [0, 1]: 0 at and above the density at which the liquid reaches p_sat (or
   /// p_floor with the cut-off, where vapour has no mass), always 0 without cavitation.
   double void_fraction(double rho, double /*energy*/ = 0.0) const;
+  /// Least pressure [Pa]: where it cavitates, else A - B, at which there is nothing left to pull at.
+  double least_pressure() const { return p_.cavitation == Cavitation::none ? p_.A - p_.B : p_lowest_; }
   /// Density [kg/m^3] at `pressure` [Pa]; at the pressure of the floor, the largest one. Throws
   /// std::domain_error where the law does not reach the pressure.
   double density_at(double pressure, double /*energy*/ = 0.0) const;

@@ -1,56 +1,23 @@
 #include "output/evidence.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
+#include "output/seal.hpp"
 
 namespace undex::output {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double format = 1;  // raised when a reader must know of a change
+constexpr double format = 2;  // raised when a reader must know of a change
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw FileError("cannot read " + path.string() + ": " + reason +
                   "; run the scene again, or take it from the run's original folder");
-}
-
-/// FNV-1a, 64 bits: the HDF5 library may crash on a damaged file, so that damage must be found before.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 14695981039346656037u;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-  return sum;
-}
-
-/// Eight bytes behind the HDF5 file, of which its readers take no notice.
-void append_checksum(const fs::path& path) {
-  const std::uint64_t sum = checksum(text_of(path).value_or(""));
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file.write(reinterpret_cast<const char*>(&sum), sizeof sum);
-  file.close();
-  if (!file) throw_file_error("write", path, errno);
-}
-
-void require_whole(const fs::path& path) {
-  const std::string bytes = text_of(path).value_or("");
-  std::uint64_t sum = 0;
-  if (bytes.size() > sizeof sum) {
-    const std::size_t end = bytes.size() - sizeof sum;
-    std::memcpy(&sum, bytes.data() + end, sizeof sum);
-    if (sum == checksum(std::string_view(bytes).substr(0, end))) return;
-  }
-  refuse(path, "the file is damaged");
 }
 
 void write_samples(const hdf5::File& file, const hdf5::Handle& group, const Samples& samples) {
@@ -87,15 +54,6 @@ void write_all(const hdf5::File& file, const Evidence& evidence) {
   file.flush();
 }
 
-double bytes_of(const Evidence& evidence) {
-  double values = 0;
-  const auto count = [&](const Samples& samples) { values += double(samples.rows()) * double(samples.columns.size()); };
-  for (const auto& [name, samples] : evidence.probes) count(samples);
-  count(evidence.energy);
-  for (const auto& [name, field] : evidence.fields) values += double(field.values.size());
-  return 8 * values;
-}
-
 }  // namespace
 
 std::vector<Vec3> LastField::vectors() const {
@@ -117,23 +75,17 @@ const LastField& Evidence::field(const std::string& name) const {
 }
 
 void write_evidence(const fs::path& path, const Evidence& evidence) {
-  require_space(path, bytes_of(evidence));
-  const fs::path temporary = temporary_name(path);
-  try {
-    write_all(hdf5::File::create_compact(temporary), evidence);
-    append_checksum(temporary);
-  } catch (...) {
-    unlink(temporary.c_str());
-    throw;
-  }
-  put_in_place(temporary, path);
+  const hdf5::File file = hdf5::File::create_in_memory(path);
+  write_all(file, evidence);
+  const std::string_view image = file.image();
+  put_in_place(write_temporary(path, {image, seal_of(image)}), path);
 }
 
 Evidence read_evidence(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
     throw FileError(path.string() + ": no such file: an older program computed the run; run the scene again");
-  require_whole(path);
+  if (!is_sealed(path)) refuse(path, "the file is damaged");
   const hdf5::File file = hdf5::File::open_to_read(path);
   if (file.number(file, "format") != format) refuse(path, "another version of the program wrote it");
   Evidence evidence;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "output/folder_lock.hpp"
 
 namespace undex::output {
 
@@ -39,7 +40,18 @@ void throw_file_error(const std::string& action, const std::filesystem::path& pa
                   (error_number != 0 ? std::strerror(error_number) : "unknown reason") + "; " + remedy(error_number));
 }
 
+void require_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw FileError("cannot read " + path.string() + ": No such file or directory; check the file's path");
+  if (status.type() != std::filesystem::file_type::regular)
+    throw FileError("cannot read " + path.string() + ": it is a folder, a pipe or a device; name a file");
+}
+
 std::optional<std::string> text_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
@@ -58,38 +70,60 @@ void put_in_place(const std::filesystem::path& temporary, const std::filesystem:
     unlink(temporary.c_str());
     throw_file_error("write", path, error);
   }
+  // The folder, too, must know of it before the power fails; where that cannot be asked for, it comes later by itself.
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); descriptor >= 0) {
+    fsync(descriptor);
+    close(descriptor);
+  }
 }
 
-void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
+std::filesystem::path write_temporary(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
   const std::filesystem::path temporary = temporary_name(path);
   const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw_file_error("write", path, errno);
   int error = 0;
-  for (std::size_t done = 0; done < text.size() && error == 0;) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written >= 0) done += static_cast<std::size_t>(written);
-    else if (errno != EINTR) error = errno;
-  }
+  for (std::string_view text : parts)
+    while (!text.empty() && error == 0) {
+      const ssize_t written = write(file, text.data(), text.size());
+      if (written >= 0) text.remove_prefix(static_cast<std::size_t>(written));
+      else if (errno != EINTR) error = errno;
+    }
   if (error == 0 && fsync(file) != 0 && errno != EINVAL && errno != ENOSYS) error = errno;
   if (close(file) != 0 && error == 0) error = errno;
   if (error != 0) {
     unlink(temporary.c_str());
     throw_file_error("write", path, error);
   }
-  put_in_place(temporary, path);
+  return temporary;
 }
 
-void require_unused_folder(const std::filesystem::path& folder, bool force) {
-  namespace fs = std::filesystem;
+void write_text_atomically(const std::filesystem::path& path, const std::string& text) {
+  put_in_place(write_temporary(path, {text}), path);
+}
+
+namespace {
+
+void require_folder_if_any(const std::filesystem::path& folder) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
     throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
-  if (fs::is_directory(folder, error) && !fs::is_empty(folder, error) && !force)
-    throw UsageError("the output folder " + folder.string() +
-                     " is not empty; name another one with -o, or write over it with --force");
+}
+
+}  // namespace
+
+void require_unused_folder(const std::filesystem::path& folder, bool force) {
+  require_folder_if_any(folder);
+  if (force) return;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().filename() != folder_lock_name)
+      throw UsageError("the output folder " + folder.string() +
+                       " is not empty; name another one with -o, or write over it with --force");
 }
 
 void make_folder(const std::filesystem::path& folder) {
+  require_folder_if_any(folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder.string() + ": cannot be made: " + error.message() + "; name another folder with -o");

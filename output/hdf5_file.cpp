@@ -82,12 +82,15 @@ File File::open(const std::filesystem::path& path) {
   return File(path, std::move(file));
 }
 
-File File::create_compact(const std::filesystem::path& path) {
+File File::create_in_memory(const std::filesystem::path& name) {
   silence();
   errno = 0;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()));
-  if (file < 0) throw_hdf5_error("write", path);
-  return File(path, std::move(file));
+  const Handle access = file_access();
+  constexpr std::size_t growth = 1u << 24;  // bytes at a time
+  H5Pset_fapl_core(access, growth, false);
+  Handle file(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
+  if (file < 0) throw_hdf5_error("write", name);
+  return File(name, std::move(file));
 }
 
 File File::open_to_read(const std::filesystem::path& path) {
@@ -123,6 +126,13 @@ Handle File::unnamed_group() const {
 void File::link(hid_t object, const std::string& name) const {
   errno = 0;
   check(H5Olink(object, file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "write");
+}
+
+bool File::has(const std::string& name) const { return check(H5Lexists(file_, name.c_str(), H5P_DEFAULT), "read") > 0; }
+
+void File::unlink(const std::string& name) const {
+  errno = 0;
+  check(H5Ldelete(file_, name.c_str(), H5P_DEFAULT), "write");
 }
 
 void File::attribute(hid_t object, const char* name, double value) const {
@@ -240,6 +250,54 @@ File::Values File::read(hid_t dataset) const {
   if (!result.values.empty())
     check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()), "read");
   return result;
+}
+
+namespace {
+
+hid_t native(ItemType::Number number) {
+  switch (number) {
+    case ItemType::Number::byte: return H5T_NATIVE_UINT8;
+    case ItemType::Number::int32: return H5T_NATIVE_INT32;
+    case ItemType::Number::uint32: return H5T_NATIVE_UINT32;
+    case ItemType::Number::int64: return H5T_NATIVE_INT64;
+    case ItemType::Number::uint64: return H5T_NATIVE_UINT64;
+    case ItemType::Number::float32: return H5T_NATIVE_FLOAT;
+    case ItemType::Number::float64: break;
+  }
+  return H5T_NATIVE_DOUBLE;
+}
+
+}  // namespace
+
+void File::array(const std::string& path, const ItemType& type, const void* data, std::size_t count) const {
+  errno = 0;
+  const hsize_t size[2] = {count, type.count};
+  Handle space(H5Screate_simple(type.count == 1 ? 1 : 2, size, nullptr));
+  Handle links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links, 1);
+  Handle set(check(H5Dcreate2(file_, path.c_str(), native(type.number), space, links, H5P_DEFAULT, H5P_DEFAULT), "write"));
+  if (count > 0) check(H5Dwrite(set, native(type.number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write");
+}
+
+void File::read_array(const std::string& path, const ItemType& type, const std::function<void*(std::size_t)>& resize) const {
+  const Handle set = open_dataset(file_, path);
+  Handle space(check(H5Dget_space(set), "read")), kind(check(H5Dget_type(set), "read"));
+  hsize_t size[2] = {0, 1};
+  const int rank = type.count == 1 ? 1 : 2;
+  if (H5Sget_simple_extent_ndims(space) != rank || H5Tequal(kind, native(type.number)) <= 0)
+    throw_damaged(path_, "'" + path + "' is of another kind");
+  check(H5Sget_simple_extent_dims(space, size, nullptr), "read");
+  if (size[1] != type.count) throw_damaged(path_, "'" + path + "' is of another kind");
+  void* data = resize(size[0]);
+  if (size[0] > 0) check(H5Dread(set, native(type.number), H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "read");
+}
+
+std::string_view File::image() const {
+  flush();
+  void* memory = nullptr;
+  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &memory), "write");
+  const ssize_t bytes = check(H5Fget_file_image(file_, nullptr, 0), "write");
+  return {*static_cast<const char**>(memory), static_cast<std::size_t>(bytes)};
 }
 
 void File::flush() const {

@@ -4,12 +4,17 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "core/state.hpp"
 
 namespace undex::output::hdf5 {
 
@@ -31,9 +36,9 @@ class Handle {
 /// An open file. Reports failures as FileError with the path, HDF5's own innermost reason and a remedy.
 class File {
  public:
-  static File create(const std::filesystem::path& path);          ///< empties an existing file; with room for many snapshots
-  static File create_compact(const std::filesystem::path& path);  ///< likewise, as small as can be
-  static File open(const std::filesystem::path& path);            ///< to read and write
+  static File create(const std::filesystem::path& path);            ///< empties an existing file; with room for many snapshots
+  static File create_in_memory(const std::filesystem::path& name);  ///< never on disk; `name` is what messages call it
+  static File open(const std::filesystem::path& path);              ///< to read and write
   static File open_to_read(const std::filesystem::path& path);
   /// Throws if `result` (of any HDF5 call on this file) tells of a failure; returns it otherwise.
   template <class Result>
@@ -47,6 +52,8 @@ class File {
   /// A group without a name yet: a killed run leaves nothing visible of it. link() publishes it.
   Handle unnamed_group() const;
   void link(hid_t object, const std::string& name) const;
+  bool has(const std::string& name) const;
+  void unlink(const std::string& name) const;
 
   void attribute(hid_t object, const char* name, double value) const;
   void attribute(hid_t object, const char* name, std::span<const std::int64_t> values) const;
@@ -70,6 +77,13 @@ class File {
     std::size_t columns = 1;
   };
   Values read(hid_t dataset) const;
+
+  /// An array of any kind, not compressed, under a path of groups that are made where they do not exist; and read back, where
+  /// `resize` is asked for the memory of as many items as there are. Throws where the file holds another kind.
+  void array(const std::string& path, const ItemType& type, const void* data, std::size_t count) const;
+  void read_array(const std::string& path, const ItemType& type, const std::function<void*(std::size_t)>& resize) const;
+  /// The bytes of a file in memory; valid until the file changes.
+  std::string_view image() const;
 
   /// Puts everything on disk. The file closes itself at the end of its scope.
   void flush() const;

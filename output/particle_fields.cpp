@@ -24,7 +24,32 @@ bool looks_like_a_component(const std::string& name) {
 
 }  // namespace
 
-ParticleFields::ParticleFields(std::filesystem::path path) : path_(std::move(path)) {
+ParticleFields::ParticleFields(std::filesystem::path path) : path_(std::move(path)) { create(); }
+
+ParticleFields ParticleFields::continued(std::filesystem::path path) {
+  ParticleFields fields;
+  fields.path_ = std::move(path);
+  return fields;
+}
+
+void ParticleFields::visit_state(StateVisitor& state) {
+  state("snapshots", snapshots_);
+  if (state.restores()) cut();
+}
+
+void ParticleFields::cut() {
+  if (snapshots_ == 0) return create();
+  const hdf5::File file = hdf5::File::open(path_);
+  const auto name = [](int number) { return "Step#" + std::to_string(number); };
+  for (int k = 0; k < snapshots_; ++k)
+    if (!file.has(name(k)))
+      throw FileError(path_.string() + ": has only " + std::to_string(k) + " of the " + std::to_string(snapshots_) +
+                      " snapshots that belong to the checkpoint; take the file from where it is whole");
+  for (int k = snapshots_; file.has(name(k)); ++k) file.unlink(name(k));
+  file.flush();
+}
+
+void ParticleFields::create() {
   // Made elsewhere and moved to its place: a program killed here leaves what was there before, not an empty file.
   const std::filesystem::path temporary = temporary_name(path_);
   try {

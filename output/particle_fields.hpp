@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 
+#include "core/state.hpp"
 #include "output/field.hpp"
 
 namespace undex::output {
@@ -17,6 +18,10 @@ class ParticleFields {
  public:
   /// Creates (or empties) the file. Throws FileError.
   explicit ParticleFields(std::filesystem::path path);
+  /// Goes on with the file that is there, once visit_state has said how far. Until then nothing is done.
+  static ParticleFields continued(std::filesystem::path path);
+  /// How many snapshots there are. Restored, it takes away those that came later. Throws FileError where there are fewer.
+  void visit_state(StateVisitor& state);
 
   /// Appends a snapshot. `ids` may be empty; otherwise it is written as int64 "id". Particles may come in any order and
   /// in another number each time. Throws FileError (disk), std::invalid_argument (sizes or names that do not fit).
@@ -26,6 +31,10 @@ class ParticleFields {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  ParticleFields() = default;
+  void create();
+  void cut();
+
   std::filesystem::path path_;
   int snapshots_ = 0;
 };

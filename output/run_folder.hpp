@@ -1,4 +1,4 @@
-// What a finished run left in its folder, read back to be compared with others.
+// The folder of a run: begun anew, and what a finished run left in it, read back to be compared with others.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,18 @@ struct RunFolder {
   std::vector<HistoryColumn> energies;                       ///< energy.csv
   std::map<std::string, std::vector<HistoryColumn>> probes;  ///< history/<probe>.csv by the probe's name
 };
+
+/// Makes the folder, which the caller has locked, that of a new run: the scene as it was given and as it was read, and nothing of
+/// an older run; files of others stay. Throws UsageError where something that is no file has the name of one of a run's, and
+/// FileError where the new run's first files cannot be written; the older run is then still whole.
+void begin_run_folder(const std::filesystem::path& folder, const std::string& given, const std::string& resolved);
+
+/// The run of the folder goes on: what says that it has ended goes, and resolved.toml says what is computed now. Throws
+/// FileError.
+void continue_run_folder(const std::filesystem::path& folder, const std::string& resolved);
+
+/// Does the folder hold a run that has not come to its end: killed, interrupted, failed?
+bool is_unfinished_run(const std::filesystem::path& folder);
 
 /// Throws FileError unless the folder is that of a run that has ended.
 void require_finished_run(const std::filesystem::path& path);

@@ -58,6 +58,7 @@ NamedNumbers numbers(const nlohmann::ordered_json& json, const char* key) {
 }
 
 nlohmann::ordered_json summary_at(const std::filesystem::path& path) {
+  require_file(path);
   std::ifstream file(path);
   if (!file) throw FileError(path.string() + ": cannot be read; check that it is there and yours to read");
   auto json = nlohmann::ordered_json::parse(file, nullptr, /*allow_exceptions=*/false);

@@ -17,14 +17,10 @@ Series Samples::series(const std::string& column) const {
   return {};
 }
 
-void write_history(const std::filesystem::path& path, const Samples& samples) {
-  History file(path, samples.columns);
-  std::vector<double> row(samples.columns.size());
-  for (std::size_t r = 0; r < samples.rows(); ++r) {
-    for (std::size_t c = 0; c < row.size(); ++c) row[c] = samples.values[c][r];
-    file.append(row);
-  }
-  file.close();
+void Samples::visit_state(StateVisitor& state) {
+  for (std::size_t c = 0; c < columns.size(); ++c) state(columns[c].name, values[c]);
 }
+
+void write_history(const std::filesystem::path& path, const Samples& samples) { History::continued(path, samples).close(); }
 
 }  // namespace undex::output

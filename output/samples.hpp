@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/state.hpp"
 #include "output/history.hpp"
 #include "output/series.hpp"
 
@@ -24,6 +25,7 @@ struct Samples {
   void append(std::initializer_list<double> row) { append(std::span<const double>(row.begin(), row.size())); }
   /// The column of that name over the first; empty where there is none.
   Series series(const std::string& column) const;
+  void visit_state(StateVisitor& state);
 };
 
 /// Writes them as a CSV history (nine digits). Throws FileError.

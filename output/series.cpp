@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "output/files.hpp"
 
 namespace undex::output {
 
@@ -146,7 +147,8 @@ Norms difference_norms(const Series& series, const Series& base, double a, doubl
   return {sum / (b - a) / peak, std::sqrt(squares / (b - a)) / peak};
 }
 
-std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
+std::vector<HistoryColumn> read_history(const std::filesystem::path& path, bool may_be_cut) {
+  require_file(path);
   std::ifstream file(path);
   if (!file) throw FileError("cannot read " + path.string() + ": " + std::strerror(errno) + "; check the file's path");
   std::vector<HistoryColumn> columns;
@@ -154,6 +156,7 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
   long line_number = 0;
   for (std::string line; std::getline(file, line);) {
     ++line_number;
+    if (may_be_cut && file.eof()) break;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || line[0] == '#') continue;
     std::vector<std::string> cells;
@@ -164,6 +167,9 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
     }
     if (!header_seen) {
       header_seen = true;
+      if (!line.starts_with("time") || cells.size() < 2)
+        throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) +
+                        ": a header such as 'time [s],pressure [Pa]' is expected");
       for (std::size_t i = 1; i < cells.size(); ++i) {
         const std::size_t bracket = cells[i].rfind(" [");
         const bool has_unit = bracket != std::string::npos && cells[i].back() == ']';
@@ -176,13 +182,14 @@ std::vector<HistoryColumn> read_history(const std::filesystem::path& path) {
     std::vector<double> row;
     for (const std::string& cell : cells) {
       char* end = nullptr;
-      row.push_back(std::strtod(cell.c_str(), &end));
-      if (end == cell.c_str()) row.clear();
-      if (row.empty()) break;
+      const double value = std::strtod(cell.c_str(), &end);
+      if (end == cell.c_str() || cell.find_first_not_of(" \t", static_cast<std::size_t>(end - cell.c_str())) != std::string::npos)
+        break;
+      row.push_back(value);
     }
     if (row.size() < columns.size() + 1)
-      throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) + ": expected numbers, found '" + line +
-                      "'");
+      throw FileError("cannot read " + path.string() + ":" + std::to_string(line_number) + ": expected numbers, found '" +
+                      line.substr(0, 200) + "'");
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].series.append(row[0], row[i + 1]);
   }
   if (!header_seen) throw FileError("cannot read " + path.string() + ": the file is empty; a header row is expected");

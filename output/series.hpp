@@ -66,8 +66,8 @@ struct HistoryColumn {
 };
 
 /// Every column after the time of a CSV history (header row "time [s],name [unit]...", lines beginning with # are
-/// skipped). Values that are not finite are kept. Throws FileError with the line when the file cannot be read or
-/// understood.
-std::vector<HistoryColumn> read_history(const std::filesystem::path& path);
+/// skipped). Values that are not finite are kept. Of a file that `may_be_cut`, its writer having been killed, what comes after
+/// the last end of line is left out. Throws FileError with the line when the file cannot be read or understood.
+std::vector<HistoryColumn> read_history(const std::filesystem::path& path, bool may_be_cut = false);
 
 }  // namespace undex::output

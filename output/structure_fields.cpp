@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
 
@@ -70,10 +71,7 @@ void StructureFields::write(double time, const StructureSnapshot& snapshot) {
         throw std::invalid_argument("structure cell names node " + std::to_string(node) + " of " +
                                     std::to_string(snapshot.positions.size()));
 
-  char number[16];
-  std::snprintf(number, sizeof number, "_%05zu", files_.size());
-  const std::string name = stem_ + number + ".hdf";
-  const std::filesystem::path path = folder_ / name;
+  const std::filesystem::path path = folder_ / name_of(times_.size());
   const std::filesystem::path temporary = temporary_name(path);
   std::size_t bytes = 12 * snapshot.positions.size() + 73 * snapshot.cells.size() + 65536;
   for (const auto* fields : {&snapshot.point_data, &snapshot.cell_data})
@@ -88,15 +86,41 @@ void StructureFields::write(double time, const StructureSnapshot& snapshot) {
   }
   put_in_place(temporary, path);
 
-  files_.emplace_back(name, time);
+  times_.push_back(time);
+  write_index();
+}
+
+std::string StructureFields::name_of(std::size_t number) const {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "_%05zu", number);
+  return stem_ + digits + ".hdf";
+}
+
+void StructureFields::write_index() const {
   std::string index = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [";
-  for (std::size_t i = 0; i < files_.size(); ++i) {
+  for (std::size_t i = 0; i < times_.size(); ++i) {
     char when[32];
-    std::snprintf(when, sizeof when, "%.12g", files_[i].second);
-    index += (i == 0 ? "\n    {\"name\": \"" : ",\n    {\"name\": \"") + files_[i].first + "\", \"time\": " + when + "}";
+    std::snprintf(when, sizeof when, "%.12g", times_[i]);
+    index += (i == 0 ? "\n    {\"name\": \"" : ",\n    {\"name\": \"") + name_of(i) + "\", \"time\": " + when + "}";
   }
   index += "\n  ]\n}\n";
   write_text_atomically(folder_ / (stem_ + ".hdf.series"), index);
+}
+
+void StructureFields::visit_state(StateVisitor& state) {
+  state("times", times_);
+  if (state.restores()) cut();
+}
+
+void StructureFields::cut() const {
+  std::error_code error;
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    if (!std::filesystem::is_regular_file(folder_ / name_of(k), error))
+      throw FileError((folder_ / name_of(k)).string() + ": a snapshot that belongs to the checkpoint is missing; bring it back");
+  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / name_of(k), error); ++k) {
+  }
+  if (!times_.empty()) write_index();
+  else std::filesystem::remove(folder_ / (stem_ + ".hdf.series"), error);
 }
 
 }  // namespace undex::output

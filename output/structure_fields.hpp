@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/state.hpp"
 #include "output/field.hpp"
 
 namespace undex::output {
@@ -29,12 +30,18 @@ class StructureFields {
   /// std::invalid_argument (sizes that do not fit, a node number out of range).
   void write(double time, const StructureSnapshot& snapshot);
 
-  std::size_t snapshots() const { return files_.size(); }
+  std::size_t snapshots() const { return times_.size(); }
+  /// The times of the snapshots. Restored, it takes away those that came later. Throws FileError where one is missing.
+  void visit_state(StateVisitor& state);
 
  private:
+  std::string name_of(std::size_t number) const;
+  void cut() const;
+  void write_index() const;
+
   std::filesystem::path folder_;
   std::string stem_;
-  std::vector<std::pair<std::string, double>> files_;  ///< name, time
+  std::vector<double> times_;  ///< of the snapshots [s]
 };
 
 }  // namespace undex::output

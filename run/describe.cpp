@@ -10,9 +10,9 @@
 
 #include "run/simulation.hpp"
 #include "run/plane_wave_start.hpp"
+#include "run/room.hpp"
 #include "run/spherical_start.hpp"
 #include "core/shapes.hpp"
-#include "sph_fluid/walls/lattice_warnings.hpp"
 
 namespace undex::run {
 namespace {
@@ -66,6 +66,7 @@ std::string describe(const scene::Scene& given) {
                             scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s",
                             planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
 
+  text += expect_room(scene) + "\n";
   const auto before = Clock::now();
   if (scene.start.kind == scene::Start::Kind::spherical) text += begin_spherically(scene) + "\n";
   const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
@@ -75,12 +76,14 @@ std::string describe(const scene::Scene& given) {
   if (const sph::Fluid* fluid = simulation.fluid()) {
     text += format("fluid, spacing %.6g m\n", scene.fluid.lattice.spacing) + bodies(scene, *fluid);
     memory += double(fluid->memory_bytes());
-    for (const std::string& warning : sph::lattice_warnings(scene.fluid)) text += "warning: " + warning + "\n";
   }
   for (const auto& body : simulation.bodies()) {
     text += body->description();
     memory += double(body->memory_bytes());
   }
+
+  for (const std::string& warning : warnings_of(scene, std::filesystem::path("out") / scene.name))
+    text += "warning: " + warning + "\n";
 
   // A few steps, for a second at most; the quickest counts, as other programs may be running too.
   const auto begin = Clock::now();

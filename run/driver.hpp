@@ -24,6 +24,7 @@ class Driver {
   /// What has crossed the wet faces; nothing where nothing is coupled by them.
   virtual std::optional<coupling::InterfaceLedger> interface() const { return std::nullopt; }
   virtual PassTimers timers() const { return {}; }  ///< its own
+  virtual void visit_state(StateVisitor&) {}        ///< its own, beside that of those whom it advances
 };
 
 class WaterAlone : public Driver {
@@ -50,6 +51,7 @@ class Coupled : public Driver {
   Step advance(double end) override;
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
   PassTimers timers() const override { return coupler_.timers(); }
+  void visit_state(StateVisitor& state) override { coupler_.visit_state(state); }
 
  private:
   coupling::Coupler coupler_;

@@ -30,8 +30,15 @@ output::LastField last_field(const Simulation& simulation, const std::string& na
 
 }  // namespace
 
-EnergyHistory::EnergyHistory(const std::filesystem::path& folder, bool gravity)
-    : gravity_(gravity), samples_(energy_columns(gravity)), history_(folder / "energy.csv", samples_.columns) {}
+EnergyHistory::EnergyHistory(const std::filesystem::path& folder, bool gravity, bool goes_on)
+    : gravity_(gravity), path_(folder / "energy.csv"), samples_(energy_columns(gravity)) {
+  if (!goes_on) history_.emplace(path_, samples_.columns);
+}
+
+void EnergyHistory::visit_state(StateVisitor& state) {
+  samples_.visit_state(state);
+  if (state.restores()) history_.emplace(output::History::continued(path_, samples_));
+}
 
 void EnergyHistory::sample(const Simulation& simulation) {
   const EnergyBalance e = simulation.energy();
@@ -39,16 +46,25 @@ void EnergyHistory::sample(const Simulation& simulation) {
                           e.plastic,         e.viscous, e.work_given, e.work_received, e.external};
   if (gravity_) row.push_back(e.gravity);
   row.insert(row.end(), {e.total(), e.error()});
-  history_.append(row);
+  history_->append(row);
   samples_.append(row);
 }
 
-Observer::Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
+Observer::Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on)
     : scene_(scene),
-      probes_(scene, simulation, folder),
-      energy_(folder, !scene.fluid.gravity.isZero()),
-      snapshots_(scene, simulation, folder),
+      simulation_(simulation),
+      probes_(scene, simulation, folder, goes_on),
+      energy_(folder, !scene.fluid.gravity.isZero(), goes_on),
+      snapshots_(scene, simulation, folder, goes_on),
       next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
+
+void Observer::visit_state(StateVisitor& state) {
+  state.part("probes", [&] { probes_.visit_state(state); });
+  state.part("energy", [&] { energy_.visit_state(state); });
+  state.part("fields", [&] { snapshots_.visit_state(state); });
+  state("next history", next_history_);
+  if (state.restores()) next_snapshot_ = snapshots_.next_after(simulation_.time());  // times of snapshots may be others now
+}
 
 void Observer::begin(const Simulation& simulation) {
   if (simulation.time() > 0) probes_.sample_before(0.0);
@@ -63,15 +79,23 @@ void Observer::observe(const Simulation& simulation) {
     const double interval = scene_.output.history_interval;
     next_history_ = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
   }
-  if (now >= next_snapshot_) {
+  // Rows wait for a few steps, and never for one that takes long: they are on disk within a second of being computed.
+  constexpr std::chrono::milliseconds most{50};
+  const bool snapshot = now >= next_snapshot_;
+  if (snapshot || std::chrono::steady_clock::now() - last_flush_ > most) flush();
+  if (snapshot) {
     snapshots_.write();
     next_snapshot_ = snapshots_.next_after(simulation.time());
   }
 }
 
-output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) {
+void Observer::flush() {
   probes_.flush();
   energy_.flush();
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const {
   output::Evidence evidence{.time = simulation.time(), .probes = probes_.samples(), .energy = energy_.samples(), .fields = {}};
   for (const std::string& name : last_fields) evidence.fields[name] = last_field(simulation, name);
   return evidence;

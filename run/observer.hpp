@@ -2,7 +2,9 @@
 // end all of it in full precision, as evidence.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,38 +20,47 @@ namespace undex::run {
 /// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
 class EnergyHistory {
  public:
-  EnergyHistory(const std::filesystem::path& folder, bool gravity);
+  EnergyHistory(const std::filesystem::path& folder, bool gravity, bool goes_on);
+  void visit_state(StateVisitor& state);
   void sample(const Simulation& simulation);
-  void flush() { history_.flush(); }
+  void flush() { history_->flush(); }
   const output::Samples& samples() const { return samples_; }
 
  private:
   bool gravity_;
+  std::filesystem::path path_;
   output::Samples samples_;
-  output::History history_;
+  std::optional<output::History> history_;
 };
 
 class Observer {
  public:
-  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
+  /// `goes_on`: the folder holds what was observed before, and visit_state will restore how far.
+  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
+  /// All that has been observed. Restored, the files of the folder are cut back to it.
+  void visit_state(StateVisitor& state);
   /// The state before the first step.
   void begin(const Simulation& simulation);
   /// A state after a step.
   void observe(const Simulation& simulation);
+  /// Puts every row so far on disk, those of all files together.
+  void flush();
   /// Time [s] beyond which no step should go.
   double next_snapshot() const { return next_snapshot_; }
   /// See Snapshots.
   bool write_at_stop() { return snapshots_.write_at_stop(); }
   /// Everything observed, with those fields of the last state ("fluid.pressure"; "body.position" is that of the first deformable
-  /// body). The histories are then on disk too.
-  output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields);
+  /// body).
+  output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const;
 
  private:
   const scene::Scene& scene_;
+  const Simulation& simulation_;
   Probes probes_;
   EnergyHistory energy_;
   Snapshots snapshots_;
   double next_history_ = 0, next_snapshot_ = 0;
+  std::chrono::steady_clock::time_point last_flush_;
 };
 
 }  // namespace undex::run

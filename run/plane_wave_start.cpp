@@ -25,7 +25,8 @@ exact::PlaneWave plane_wave(const scene::Scene& scene) {
   try {
     return {body.material.law, density, energy, wave.peak, wave.decay};
   } catch (const std::invalid_argument& mistake) {
-    throw SceneError(scene.file.string(), {{{}, "start.kind = \"plane_wave\" in bodies." + body.name + ": " + mistake.what()}});
+    throw SceneError(scene.file.string(), {scene.places.finding("start.kind", "start.kind = \"plane_wave\" in bodies." +
+                                                                                  body.name + ": " + mistake.what())});
   }
 }
 

@@ -45,7 +45,7 @@ std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::funct
 
 }  // namespace
 
-Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder) {
+Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
   const int dimension = scene.structure ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty()) std::filesystem::create_directories(folder / "history");
   for (const scene::Probe& probe : scene.probes) {
@@ -63,14 +63,28 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
         place = place_on_wall(simulation, probe.point, 2.0 * scene.fluid.lattice.spacing);
       read = reader<FluidPoint>(quantities, dimension, fluid_point(simulation, std::move(place)));
     }
-    output::History history(folder / "history" / (probe.name + ".csv"), columns);
-    channels_.push_back(
-        {.probe = probe, .read = std::move(read), .history = std::move(history), .samples = output::Samples(std::move(columns))});
+    channels_.push_back({.probe = probe,
+                         .read = std::move(read),
+                         .path = folder / "history" / (probe.name + ".csv"),
+                         .samples = output::Samples(std::move(columns)),
+                         .history = {}});
+    if (!goes_on) channels_.back().history.emplace(channels_.back().path, channels_.back().samples.columns);
+  }
+}
+
+void Probes::visit_state(StateVisitor& state) {
+  std::string known;  // names, each with a line's end
+  for (const Channel& channel : channels_) known += channel.probe.name + "\n";
+  state("names", known);
+  for (Channel& channel : channels_) {
+    if (("\n" + known).find("\n" + channel.probe.name + "\n") != std::string::npos)
+      state.part("history " + channel.probe.name, [&] { channel.samples.visit_state(state); });
+    if (state.restores()) channel.history.emplace(output::History::continued(channel.path, channel.samples));
   }
 }
 
 void Probes::append(Channel& channel, const std::vector<double>& row) {
-  channel.history.append(row);
+  channel.history->append(row);
   channel.samples.append(row);
 }
 
@@ -91,7 +105,7 @@ void Probes::sample_before(double time) {
 }
 
 void Probes::flush() {
-  for (Channel& channel : channels_) channel.history.flush();
+  for (Channel& channel : channels_) channel.history->flush();
 }
 
 std::map<std::string, output::Samples> Probes::samples() const {

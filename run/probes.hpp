@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace undex::run {
 class Probes {
  public:
   /// Finds the probes' places in the simulation, which must outlive them, and opens history/<name>.csv under `folder`.
-  Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
+  /// Where the run goes on, they are opened by visit_state, which knows their rows; those of new probes are begun.
+  Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
+  void visit_state(StateVisitor& state);
 
   /// Appends one row to every history.
   void sample(const Simulation& simulation);
@@ -32,8 +35,9 @@ class Probes {
   struct Channel {
     scene::Probe probe;
     std::function<void(std::vector<double>& row)> read;  ///< appends the present values of its columns
-    output::History history;
+    std::filesystem::path path;
     output::Samples samples;
+    std::optional<output::History> history;
   };
   static void append(Channel& channel, const std::vector<double>& row);
   static std::vector<double> row_of(const Channel& channel, double time);

@@ -27,6 +27,15 @@ void add(const DeformableBody& body, output::RunRecord& record) {
 
 }  // namespace
 
+void Stopwatch::visit_state(StateVisitor& state) {
+  double wall_time = wall(), cpu_time = cpu();
+  state("wall time", wall_time);
+  state("CPU time", cpu_time);
+  if (!state.restores()) return;
+  before_[0] += wall_time;
+  before_[1] += cpu_time;
+}
+
 output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulation, const Stopwatch& since) {
   output::RunRecord record;
   record.scene = scene.name;

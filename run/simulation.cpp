@@ -61,13 +61,25 @@ double compression_energy(const sph::Fluid& fluid) {
   return sum;
 }
 
-/// Energy [J] of a strain of 1e-10 and of the motion that goes with it, in structure and solids: far above what rounding makes of a
-/// body at rest, far below what anybody computes.
+/// Energy [J] of a strain of 1e-10 and of the motion that goes with it, in structure and solids: far above what rounding makes
+/// of a body at rest, far below what anybody computes.
 double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
   double fastest = scene.structure ? materials::wave_speed(scene.structure->material) : 0.0, mass = 0.0;
   for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
   for (const auto& body : bodies) mass += body->ledger().mass;
   return 0.5 * mass * std::pow(1e-10 * fastest, 2);
+}
+
+/// The table of the scene that a solver's complaint is about: it opens with the kind and the name, in quotes, of what is wrong,
+/// or with the key itself.
+std::string table_of(const std::string& complaint, const std::string& otherwise) {
+  for (const auto& [word, list] : {std::pair("body '", "bodies."), {"solid '", "solids."}, {"wall '", "walls."}})
+    if (complaint.starts_with(word)) {
+      const std::size_t begin = std::string_view(word).size();
+      return list + complaint.substr(begin, complaint.find('\'', begin) - begin);
+    }
+  const std::string key = complaint.substr(0, complaint.find_first_of(" :"));
+  return key.find('.') != std::string::npos ? key : otherwise;
 }
 
 /// The fastest of particles with velocities v and places x, three components each.
@@ -93,24 +105,24 @@ Simulation::Simulation(const scene::Scene& scene) {
 
 void Simulation::build(const scene::Scene& scene) {
   std::vector<Finding> findings;
-  const auto attempt = [&](auto build) {
+  const auto attempt = [&](const char* table, auto build) {
     try {
       build();
     } catch (const std::invalid_argument& mistake) {
-      findings.push_back({{}, mistake.what()});
+      findings.push_back(scene.places.finding(table_of(mistake.what(), table), mistake.what()));
     }
   };
-  if (!scene.fluid.bodies.empty()) attempt([&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
-  if (scene.structure) attempt([&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
+  if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
+  if (scene.structure) attempt("structure", [&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
   solid::Solids* solids = nullptr;
   if (!scene.solids.bodies.empty())
-    attempt([&] {
+    attempt("solids", [&] {
       auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
       if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
       solids = built.get();
       bodies_.push_back(std::move(built));
     });
-  if (findings.empty()) attempt([&] { make_driver(scene.coupling, solids); });
+  if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 
@@ -149,6 +161,19 @@ long Simulation::steps() const { return fluid_ ? fluid_->steps() : bodies_.front
 void Simulation::advance(double end) {
   last_ = driver_->advance(end);
   for (DeformableBody* body : followers_) body->advance(time());
+}
+
+void Simulation::visit_state(StateVisitor& state) {
+  if (fluid_) state.part("fluid", [&] { fluid_->visit_state(state); });
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    state.part("body " + std::to_string(b), [&] { bodies_[b]->visit_state(state); });
+  state.part("driver", [&] { driver_->visit_state(state); });
+  state("last step", last_.words);
+  state("last step size", last_.size);
+}
+
+void Simulation::find_rates_anew() {
+  if (fluid_) fluid_->find_rates_anew();
 }
 
 EnergyBalance Simulation::energy() const {

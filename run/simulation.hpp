@@ -43,6 +43,11 @@ class Simulation {
   const std::string& last_step() const { return last_.words; }
   double last_step_size() const { return last_.size; }
 
+  /// What the next step goes on from: all that outlasts a step, of everybody.
+  void visit_state(StateVisitor& state);
+  /// Goes on from the state of a step that went wrong.
+  void find_rates_anew();
+
   EnergyBalance energy() const;
   double mass_error() const;
   /// Change of momentum of everything together beyond the impulses of gravity, loads and rigid planes, over what all kinetic
@@ -85,7 +90,7 @@ class Simulation {
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   Vec3 gravity_ = Vec3::Zero();
   double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;
-  double least_scale_ = 0;  // of energies: what pressure and rounding at the start stand for [J]
+  double least_scale_ = 0;          // of energies: what pressure and rounding at the start stand for [J]
   std::array<bool, 3> balanced_{};  // axes along which all impulses are booked
   bool closed_ = false;             // does nothing act from outside?
   Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();

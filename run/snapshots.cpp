@@ -52,22 +52,45 @@ void write_cells(double time, BodySnapshot snapshot, bool at_stop, output::Struc
 
 }  // namespace
 
-Snapshots::Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder)
+Snapshots::Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on)
     : simulation_(simulation), folder_(folder / "fields"), wanted_(scene.output) {
-  if (wanted_.field_interval > 0 || !wanted_.field_times.empty()) open();
+  if (wanted_.field_interval > 0 || !wanted_.field_times.empty()) open(goes_on);
 }
 
 /// One file a kind; a second body of a kind has a number.
-void Snapshots::open() {
+void Snapshots::open(bool goes_on) {
   std::filesystem::create_directories(folder_);
-  if (simulation_.fluid()) water_.emplace(folder_ / "particles.h5part");
+  const auto particles = [&](const std::string& name) {
+    const std::filesystem::path path = folder_ / (name + ".h5part");
+    return goes_on ? output::ParticleFields::continued(path) : output::ParticleFields(path);
+  };
+  if (simulation_.fluid()) water_ = particles("particles");
   int of_particles = 0, of_cells = 0;
   const auto numbered = [](const std::string& stem, int count) { return count > 1 ? stem + std::to_string(count) : stem; };
   for (const auto& body : simulation_.bodies()) {
-    BodyFile file{.body = body.get(), .particles = {}, .cells = {}};
-    if (body->size().particles > 0) file.particles.emplace(folder_ / (numbered("solids", ++of_particles) + ".h5part"));
-    else if (wanted_.structure_fields) file.cells.emplace(folder_, numbered("structure", ++of_cells));
+    const bool in_particles = body->size().particles > 0;
+    const std::string name = in_particles ? numbered("solids", ++of_particles) : numbered("structure", ++of_cells);
+    BodyFile file{.body = body.get(), .name = name, .particles = {}, .cells = {}};
+    if (in_particles) file.particles = particles(name);
+    else if (wanted_.structure_fields) file.cells.emplace(folder_, name);
     if (file.particles || file.cells) bodies_.push_back(std::move(file));
+  }
+}
+
+void Snapshots::visit_state(StateVisitor& state) {
+  state("last time", last_time_);
+  std::string known;  // names of the files, each with a line's end
+  if (water_) known += "particles\n";
+  for (const BodyFile& file : bodies_) known += file.name + "\n";
+  state("files", known);
+  const auto visit = [&](const std::string& name, auto& file, const auto& begin_anew) {
+    if (known.find(name + "\n") != std::string::npos) state.part(name, [&] { file->visit_state(state); });
+    else if (state.restores()) begin_anew();
+  };
+  if (water_) visit("particles", water_, [&] { water_.emplace(folder_ / "particles.h5part"); });
+  for (BodyFile& file : bodies_) {
+    if (file.particles) visit(file.name, file.particles, [&] { file.particles.emplace(folder_ / (file.name + ".h5part")); });
+    if (file.cells) visit(file.name, file.cells, [] {});
   }
 }
 
@@ -81,7 +104,7 @@ double Snapshots::next_after(double time) const {
 }
 
 bool Snapshots::write_at_stop() {
-  if (!is_open()) open();
+  if (!is_open()) open(/*goes_on=*/false);
   if (simulation_.time() != last_time_) write(true);
   return is_open();
 }

@@ -14,8 +14,11 @@ namespace undex::run {
 
 class Snapshots {
  public:
-  /// Of the simulation, which must outlive it, into folder/fields.
-  Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder);
+  /// Of the simulation, which must outlive it, into folder/fields. Where the run goes on, the files that are there are gone on
+  /// with: visit_state says how far.
+  Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
+  /// A file that the checkpoint does not know (the scene wants fields now) is begun.
+  void visit_state(StateVisitor& state);
   /// The next time at which the scene wants a snapshot after `time` [s]; infinity when there is none.
   double next_after(double time) const;
   void write() { write(false); }
@@ -28,11 +31,12 @@ class Snapshots {
   /// A body's file, by what the body is made of; neither where the scene wants none of it.
   struct BodyFile {
     const DeformableBody* body;
+    std::string name;
     std::optional<output::ParticleFields> particles;
     std::optional<output::StructureFields> cells;
   };
   bool is_open() const { return water_ || !bodies_.empty(); }
-  void open();
+  void open(bool goes_on);
   void write(bool at_stop);
 
   const Simulation& simulation_;

@@ -1,7 +1,8 @@
-// The one-dimensional flow of a scene's spherical charge in its medium: the spherical start begins from it, and comparisons are made
-// with it. Cells are as fine as the wave asks for: a charge's radius over `charge_cells` at the charge, and wider with the radius of
-// the wave's front, w(r) = w(a) (a + r)/(2 a), for the wave grows longer as it runs. What lies ahead of the front is laid out so; what
-// the front has left behind is merged as it goes on. The cost of a run out to r grows with log(r/a), not with its square.
+// The one-dimensional flow of a scene's spherical charge in its medium: the spherical start begins from it, and comparisons are
+// made with it. Cells are as fine as the wave asks for: a charge's radius over `charge_cells` at the charge, and wider with the
+// radius of the wave's front, w(r) = w(a) (a + r)/(2 a), for the wave grows longer as it runs. What lies ahead of the front is
+// laid out so; what the front has left behind is merged as it goes on. The cost of a run out to r grows with log(r/a), not with
+// its square.
 #pragma once
 
 #include "exact/lagrangian_1d.hpp"

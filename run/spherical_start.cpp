@@ -15,7 +15,7 @@ namespace {
 constexpr int cells_in_charge = 250;
 
 [[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
-  throw SceneError(scene.file.string(), {{{}, "start.kind = \"spherical\": " + why}});
+  throw SceneError(scene.file.string(), {scene.places.finding("start.kind", "start.kind = \"spherical\": " + why)});
 }
 
 /// At the start [Pa].

@@ -16,8 +16,8 @@ using StartProgress = std::function<void(double time, double front, double obsta
 
 /// Computes the one-dimensional flow of the scene's charge and puts it into scene.fluid: the charge's shape grows to its
 /// present radius, charge and medium get a start field, and the start time is set. Returns one line that says what was
-/// done. Throws SceneError where the scene does not allow a spherical start: where anything but the charge would not stay as it is
-/// until the particles take over.
+/// done. Throws SceneError where the scene does not allow a spherical start: where anything but the charge would not stay as it
+/// is until the particles take over.
 std::string begin_spherically(scene::Scene& scene, const StartProgress& progress = {});
 
 }  // namespace undex::run

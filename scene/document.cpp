@@ -2,23 +2,89 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csetjmp>
 #include <stdexcept>
 #include <utility>
 
 #include "scene/numbers.hpp"
 
-// The parser's own assertions fail on some damaged files: a mistake of the file, not of this program.
-#define TOML_ASSERT(condition) static_cast<void>((condition) || (throw std::domain_error("unexpected characters"), false))
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wterminate"
+namespace {
+
+/// Out of the parser, from functions that let no exception pass; what it holds then is lost, a few kilobytes.
+thread_local std::jmp_buf out_of_the_parser;
+[[noreturn]] void leave_the_parser() { std::longjmp(out_of_the_parser, 1); }
+
+}  // namespace
+
+// The parser's own assertions fail on some damaged files, and it reaches what it holds for unreachable: a mistake of the file,
+// not of this program, and nothing that a compiler may build on. Values within values go as deep as the stack bears with
+// certainty.
+#define TOML_ASSERT(condition) static_cast<void>((condition) || (leave_the_parser(), false))
+#define TOML_MAX_NESTED_VALUES 32
+#include <toml++/impl/preprocessor.h>
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE leave_the_parser()
 #include <toml++/toml.h>
-#pragma GCC diagnostic pop
 
 namespace undex::scene {
 namespace {
 
 Where place(const toml::source_region& source) {
   return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+/// Length of the UTF-8 sequence that begins the text; 0 where there is none (RFC 3629: no surrogates, nothing overlong).
+std::size_t sequence_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+  const auto follows = [&](std::size_t k, unsigned low = 0x80, unsigned high = 0xBF) {
+    return byte(k) >= low && byte(k) <= high;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF)
+    return follows(1, first == 0xE0 ? 0xA0 : 0x80, first == 0xED ? 0x9F : 0xBF) && follows(2) ? 3 : 0;
+  if (first >= 0xF0 && first <= 0xF4)
+    return follows(1, first == 0xF0 ? 0x90 : 0x80, first == 0xF4 ? 0x8F : 0xBF) && follows(2) && follows(3) ? 4 : 0;
+  return 0;
+}
+
+std::string hexadecimal(char c) {
+  const char* digits = "0123456789abcdef";
+  const auto code = static_cast<unsigned char>(c);
+  return std::string("0x") + digits[code >> 4] + digits[code & 15];
+}
+
+/// Finds what no TOML file has, before the parser sees it: bytes that are no text, and keys of very many parts, each of which
+/// is a table within the one before. Throws SceneError with the place.
+void expect_text(std::string_view text, const std::string& file) {
+  constexpr int most_parts = 32;
+  Where at{1, 1};
+  int parts = 1;   // of the key that may be under way
+  char quote = 0;  // that opened the string under way
+  bool comment = false;
+  const auto refuse = [&](const std::string& why) { throw SceneError(file, {{at, "not TOML: " + why}}); };
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    const std::size_t length = sequence_length(text.substr(i));
+    if (length == 0) refuse("the byte " + hexadecimal(c) + " is no UTF-8 text; save the file as UTF-8");
+    const bool mark = length == 3 && text.substr(i, 3) == "\xEF\xBB\xBF" && i == 0;
+    const bool line_end = c == '\n';
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\t' && !line_end && !(c == '\r' && text.substr(i, 2) == "\r\n")) ||
+        c == 0x7f)
+      refuse("the control character " + hexadecimal(c) + "; remove it");
+    if (line_end) quote = 0, comment = false;
+    else if (comment) parts = 1;
+    else if (quote == '"' && text.substr(i, 2) == "\\\"") ++i, ++at.column;
+    else if (quote == '"' && text.substr(i, 2) == "\\\\") ++i, ++at.column;
+    else if (quote != 0) quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'') quote = c;
+    else if (c == '#') comment = true;
+    else if (c == '.' && ++parts > most_parts) refuse("a key of more than " + std::to_string(most_parts) + " parts");
+    if (line_end || (quote == 0 && (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}'))) parts = 1;
+    at = line_end ? Where{at.line + 1, 1} : Where{at.line, at.column + (mark ? 0 : 1)};
+    i += length;
+  }
 }
 
 Node converted(const toml::node& from) {
@@ -122,14 +188,25 @@ std::string toml_value(const Node& node) {
   return "";
 }
 
+namespace {
+
+/// Throws std::domain_error where the parser was left.
+toml::table parsed(std::string_view text, const std::string& file) {
+  if (setjmp(out_of_the_parser) != 0) throw std::domain_error("unexpected characters");
+  return toml::parse(text, std::string_view(file));
+}
+
+}  // namespace
+
 Node parse_toml(std::string_view text, const std::string& file) {
+  expect_text(text, file);
   try {
-    Node root = converted(toml::parse(text, std::string_view(file)));
+    Node root = converted(parsed(text, file));
     root.where = {1, 1};
     return root;
   } catch (const toml::parse_error& error) {
     throw SceneError(file, {{place(error.source()), "not TOML: " + std::string(error.description())}});
-  } catch (const std::domain_error& error) {
+  } catch (const std::logic_error& error) {
     throw SceneError(file, {{{}, "not TOML: " + std::string(error.what())}});
   }
 }

@@ -18,6 +18,7 @@ struct Draft {
   Scene scene;
   Node root;  ///< the document, overrides applied
   Report report;
+  Report warnings;  ///< what may be meant, and probably is not
   bool dimension_good = true, spacing_good = false;
   std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes,
       probe_nodes;  ///< into root, beside the scene's own vectors

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 #include "scene/document.hpp"
@@ -53,11 +52,15 @@ std::filesystem::path found_file(const std::filesystem::path& path, const char* 
 }
 
 std::string file_text(const std::filesystem::path& file) {
+  constexpr std::size_t most = 16 << 20;  // [byte] more than anybody writes; a device never ends
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream) throw FileError(file.string() + ": cannot be read; check that it exists and that you may read it");
-  return text.str();
+  std::string text(most + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || (stream.gcount() == 0 && !stream.eof()))
+    throw FileError(file.string() + ": cannot be read; check that it exists and that you may read it");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > most) throw FileError(file.string() + ": larger than 16 MB; name a scene or study file");
+  return text;
 }
 
 std::string name_of(const std::filesystem::path& file, const char* usual_name) {
@@ -91,6 +94,9 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   read_comparison(draft, kinds);
   validate(draft);
   if (!draft.report.empty()) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
+  draft.scene.places = Places(draft.root);
+  for (const Finding& finding : without_repetitions(draft.warnings.findings()))
+    draft.scene.warnings.push_back(SceneError(file.string(), {finding}).what());
   return std::move(draft.scene);
 }
 

@@ -5,6 +5,7 @@
 #include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
 #include "scene/numbers.hpp"
+#include "scene/plausible.hpp"
 #include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
 
@@ -37,7 +38,7 @@ const char* const all_of_a_law = "a law without 'base' needs all its parameters"
 
 /// Makes the law anew from the parameters that the table names, and from those of the base or the law's own for the rest.
 template <class Law>
-bool rebuild(const TableReader& table, bool based, Fluid& into) {
+bool rebuild(const TableReader& table, bool based, Draft& draft, Fluid& into) {
   typename Law::Parameters parameters{};
   if (based) parameters = std::get<Law>(into.law).parameters();
   const std::size_t before = table.report().size();
@@ -45,6 +46,8 @@ bool rebuild(const TableReader& table, bool based, Fluid& into) {
   if (table.report().size() != before) return false;
   try {
     into.law = Law(parameters);
+    expect_plausible(table, into.law, draft.warnings);
+    if (table.report().size() != before) return false;
   } catch (const std::exception& error) {
     table.report().add(table.node(), table.path() + ": " + error.what());
     return false;
@@ -115,7 +118,7 @@ bool read_fluid_at(const Node& node, const std::string& path, Draft& draft, int 
   table.read("name", into.name);
   table.read("source", into.source);
   bool good = true;
-  Laws::with(name, [&]<class Law>(std::type_identity<Law>) { good = rebuild<Law>(table, base, into); });
+  Laws::with(name, [&]<class Law>(std::type_identity<Law>) { good = rebuild<Law>(table, base, draft, into); });
   return good && report.size() == before;
 }
 
@@ -205,7 +208,16 @@ void check_together(const TableReader& solid, const Solid& of) {
     solid.complain("flow", solid.path_of("flow") +
                                ".C0 and C1 are both 0: nothing would resist the first strain; one of "
                                "them must be greater than 0");
+  const auto check_start = [&](const char* key, double T_melt) {
+    if (of.T_room < T_melt) return;
+    solid.complain(solid.has("T_room") ? "T_room" : key,
+                   solid.path_of("T_room") + " = " + shortest(of.T_room) +
+                       " [K], the temperature at the start, must lie below the melting point, " + key +
+                       ".T_melt = " + shortest(T_melt) + " [K]: the solid would be molten");
+  };
+  if (const auto* flow = std::get_if<JohnsonCook>(&of.flow)) check_start("flow", flow->T_melt);
   if (!of.damage) return;
+  check_start("damage", of.damage->T_melt);
   check_melting("damage", of.damage->T_melt, of.damage->T_room);
   const double least = of.damage->D1 + of.damage->D2 * std::exp(1.5 * of.damage->D3);
   if (least <= 0)
@@ -275,6 +287,7 @@ bool read_solid_at(const Node& node, const std::string& path, Draft& draft, int 
   read_spall(table, into);
   read_damage(table, into);
   if (report.size() == before) check_together(table, into);
+  if (report.size() == before) expect_plausible(table, into, draft.warnings);
   return report.size() == before;
 }
 

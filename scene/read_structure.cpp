@@ -1,6 +1,7 @@
 // [structure] and [coupling].
 #include <algorithm>
 
+#include "core/gmsh_file.hpp"
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
 #include "scene/numbers.hpp"
@@ -29,6 +30,12 @@ bool find_file(const TableReader& table, const TableReader& shape, const Draft& 
   mesh.path = std::filesystem::absolute(full).lexically_normal().string();
   for (const char* key : {"cells", "cell_size"})
     if (table.has(key)) table.complain(key, table.path_of(key) + ": a gmsh mesh has its own cells; leave it out");
+  try {
+    mesh.read = std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path));
+  } catch (const std::invalid_argument& mistake) {
+    shape.complain("path", shape.path_of("path") + ": " + mistake.what());
+    return false;
+  }
   return true;
 }
 
@@ -80,13 +87,7 @@ bool read_mesh(const TableReader& table, const Draft& draft, fem::ElementKind el
   return good;
 }
 
-/// None for a gmsh mesh, whose faces are the ids in its file.
-std::vector<std::string> mesh_faces(const fem::Mesh& mesh, const std::array<bool, 3>& symmetric) {
-  const std::optional<Primitive> shape = structure_shape(mesh);
-  return shape ? shape_faces(*shape, 3, symmetric) : std::vector<std::string>{};
-}
-
-/// Is the face one of the mesh's? Gmsh faces are only known to the file.
+/// Is the face one of the mesh's?
 void check_face(const TableReader& table, const char* key, const std::string& face, const std::vector<std::string>& known) {
   if (!known.empty() && std::find(known.begin(), known.end(), face) == known.end()) table.unknown_word(key, face, known);
 }
@@ -147,8 +148,9 @@ void read_structure(Draft& draft) {
   for (int a = 0; a < 3; ++a)
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
-  const std::vector<std::string> faces =
-      draft.structure_shape_good ? mesh_faces(structure.mesh, draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
+  const std::vector<std::string> faces = draft.structure_shape_good
+                                             ? StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis)
+                                             : std::vector<std::string>{};
   read_faces(table, "supports", faces, structure.supports, [](const TableReader&, const fem::Support&) {});
   read_faces(table, "loads", faces, structure.loads, check_load);
   structure.planes = draft.scene.solids.planes;

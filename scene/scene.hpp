@@ -11,6 +11,7 @@
 #include "core/record.hpp"
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
+#include "scene/places.hpp"
 #include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
 #include "sph_solid/settings.hpp"
@@ -132,9 +133,10 @@ void describe(Probe& probe, Visit&& visit) {
 
 /// What is written, and how often. Zero interval: never.
 struct Output {
-  double history_interval = 0;      ///< [s]; 0: every step
-  double field_interval = 0;        ///< [s] between field snapshots
-  std::vector<double> field_times;  ///< [s] further snapshots at these times
+  double history_interval = 0;       ///< [s]; 0: every step
+  double checkpoint_interval = 600;  ///< [s] of wall time; 0: none
+  double field_interval = 0;         ///< [s] between field snapshots
+  std::vector<double> field_times;   ///< [s] further snapshots at these times
   std::vector<std::string> particle_fields{"pressure", "density", "velocity", "void_fraction"};
   ///< also: energy, smoothing_length, material, sound_speed, mass
   bool structure_fields = true;
@@ -149,6 +151,11 @@ void describe(Output& output, Visit&& visit) {
                                   .unit = "s",
                                   .range = Range::between(0, 1e3),
                                   .meaning = "between rows of histories; 0: every step"});
+  visit(output.checkpoint_interval, {.name = "checkpoint_interval",
+                                     .unit = "s",
+                                     .range = Range::between(0, 1e9),
+                                     .meaning = "wall time between checkpoints, which `undex resume` goes on from; one is also "
+                                                "written at the end and at a signal; 0: none"});
   visit(output.field_interval, {.name = "field_interval",
                                 .unit = "s",
                                 .range = Range::between(0, 1e3),
@@ -203,6 +210,8 @@ struct Scene {
   std::vector<Probe> probes;
   Output output;
   Comparison comparison;
+  Places places;                      ///< of its keys in the file
+  std::vector<std::string> warnings;  ///< "file:line:column: what is probably not meant"
 };
 
 template <class Visit>

@@ -1,8 +1,12 @@
 #include "scene/structure_shape.hpp"
 
 #include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <set>
+
+#include "scene/faces.hpp"
 
 namespace undex::scene {
 namespace {
@@ -33,14 +37,6 @@ std::vector<double> between(double low, double high) {
 }
 
 }  // namespace
-
-std::optional<Primitive> structure_shape(const fem::Mesh& mesh) {
-  const auto shape = [](const auto& each) -> std::optional<Primitive> {
-    if constexpr (requires { shape_of(each); }) return shape_of(each);
-    else return std::nullopt;
-  };
-  return std::visit(shape, mesh);
-}
 
 std::vector<Vec3> face_points(const Primitive& shape, const std::string& face) {
   if (const auto* t = std::get_if<TubeShape>(&shape)) {
@@ -85,6 +81,63 @@ double thickness(const Primitive& shape, int dimension) {
   if (const auto* tube = std::get_if<TubeShape>(&shape); tube && (dimension > 1 || tube->axis != 0))
     least = std::min(least, tube->outer - tube->inner);
   return least;
+}
+
+StructureShape::StructureShape(const fem::Mesh& mesh) {
+  std::visit(
+      [&](const auto& each) {
+        if constexpr (requires { shape_of(each); }) primitive_ = shape_of(each);
+        else mesh_ = each.read;
+      },
+      mesh);
+  if (mesh_) distance_ = std::make_shared<const MeshDistance>(mesh_);
+}
+
+double StructureShape::signed_distance(const Vec3& x) const {
+  return primitive_ ? undex::signed_distance(*primitive_, x, 3) : distance_->signed_distance(x);
+}
+
+Bounds StructureShape::extent() const { return primitive_ ? bounds(*primitive_, 3) : bounds(*mesh_); }
+
+double StructureShape::thickness() const {
+  if (primitive_) return scene::thickness(*primitive_, 3);
+  double volume = 0, area = 0;
+  for (const auto& cell : mesh_->cells)
+    for (const double corner : corner_volumes(mesh_->nodes, cell)) volume += std::abs(corner) / 8;
+  for (const auto& face : mesh_->faces) {
+    const auto at = [&](int v) { return mesh_->nodes[face.nodes[static_cast<std::size_t>(v)]]; };
+    area += 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
+  }
+  return 2 * volume / area;
+}
+
+std::vector<std::string> StructureShape::faces(const std::array<bool, 3>& symmetric) const {
+  if (primitive_) return shape_faces(*primitive_, 3, symmetric);
+  std::set<int> ids;
+  for (const auto& face : mesh_->faces) ids.insert(face.id);
+  std::vector<std::string> names;
+  for (const int id : ids) names.push_back(std::to_string(id));
+  return names;
+}
+
+std::vector<Vec3> StructureShape::face_points(const std::string& face) const {
+  if (primitive_) return scene::face_points(*primitive_, face);
+  std::vector<Vec3> points;
+  for (const auto& each : mesh_->faces) {
+    if (std::to_string(each.id) != face) continue;
+    Vec3 middle = Vec3::Zero();
+    for (const int node : each.nodes) {
+      points.push_back(mesh_->nodes[node]);
+      middle += 0.25 * mesh_->nodes[node];
+    }
+    points.push_back(middle);
+  }
+  return points;
+}
+
+std::optional<StructureShape> structure_shape(const fem::Mesh& mesh) {
+  if (const auto* gmsh = std::get_if<fem::GmshMesh>(&mesh); gmsh && !gmsh->read) return std::nullopt;
+  return StructureShape(mesh);
 }
 
 }  // namespace undex::scene

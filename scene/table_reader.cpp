@@ -21,14 +21,23 @@ std::string home_of(const std::string& key) {
   return section("").find(key) ? "the top of the file, before the first [table]" : "";
 }
 
+/// Of what must be greater than 0: squares of less vanish, of a density [kg/m^3] in single precision.
+double smallest(const Key& key) { return std::string_view(key.unit) == "kg/m^3" ? 1e-9 : 1e-30; }
+
 std::string table_name(const std::string& path) { return path.empty() ? "at the top of the file" : "in " + path; }
 
 }  // namespace
 
 void report_unknown_keys(const Node& node, const std::string& path, const Section& known, Report& report) {
+  constexpr int most_remedies = 100;  // in one table
+  int unknown = 0;
+  const std::vector<std::string> names = known.key_names();
   for (const Entry& entry : node.entries) {
     if (known.find(entry.key)) continue;
-    const std::vector<std::string> names = known.key_names();
+    if (++unknown > most_remedies) {
+      report.add(entry, "unknown key");
+      continue;
+    }
     std::string remedy;
     if (const std::string near = nearest(entry.key, names); !near.empty()) remedy = "did you mean '" + near + "'?";
     else if (const std::string home = known.name.starts_with("study") ? "" : home_of(entry.key); !home.empty())
@@ -68,11 +77,17 @@ bool TableReader::need(const char* key, const std::string& remedy) const {
 }
 
 bool TableReader::in_range(const char* key, const Node& at, double value) const {
-  const Key& limits = *section_.find(key);
-  if (std::isfinite(value) && limits.range.holds(value)) return true;
-  const std::string unit = limits.unit;
-  report_.add(at, path_of(key) + " = " + shortest(value) + (unit.empty() ? "" : " [" + unit + "]") + " must be " +
-                      range_in_words(limits.range));
+  const Range& range = section_.find(key)->range;
+  const bool finite = std::isfinite(value), held = finite && range.holds(value);
+  const double least = smallest(*section_.find(key));
+  const bool vanishes = held && range.above_low && range.low == 0 && value < least;
+  if (held && !vanishes) return true;
+  const std::string unit = section_.find(key)->unit;
+  std::string wanted = "must be " + range_in_words(range);
+  if (vanishes) wanted = "is too small to compute with: it must be at least " + shortest(least);
+  else if (finite && std::abs(value) > Range::endless && (value > 0 ? range.high : -range.low) >= Range::endless)
+    wanted = "is too large to compute with: it must be at most " + shortest(Range::endless) + " in size";
+  report_.add(at, path_of(key) + " = " + shortest(value) + (unit.empty() ? "" : " [" + unit + "]") + ' ' + wanted);
   return false;
 }
 

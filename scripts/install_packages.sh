@@ -11,6 +11,7 @@ packages=(
   git                    # the version that a run records
   libdeal.ii-dev         # finite elements: mesh and shape functions of the structure
   libhdf5-openmpi-dev    # field files; the flavour of HDF5 that deal.II links
+  libxxhash-dev          # checksums of checkpoints and evidence
   libeigen3-dev          # small vectors and tensors
   libtomlplusplus-dev    # scene files
   libcli11-dev           # command line

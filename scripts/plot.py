@@ -40,16 +40,17 @@ class Missing(Exception):
 
 # ---------------------------------------------------------------------------------------------------- reading
 
-def read_history(path):
-    """Columns of a CSV history by name without unit, e.g. {"time": ..., "pressure": ...}; # lines are comments."""
+def read_history(path, of_a_run=True):
+    """Columns of a CSV history by name without unit, e.g. {"time": ..., "pressure": ...}; # lines are comments. Of a run, which may
+    have been killed, what comes after the last end of line is part of a row and left out."""
     with open(path, newline="") as file:
-        rows = [row for row in csv.reader(line for line in file if not line.startswith("#")) if row]
+        lines = [line for line in file if line.endswith("\n") or not of_a_run]
+    rows = [row for row in csv.reader(line for line in lines if not line.startswith("#")) if row]
     if len(rows) < 2:
         raise Missing(f"{path}: no samples")
     names = [re.sub(r"\s*\[.*\]$", "", cell).strip() for cell in rows[0]]
-    complete = [row for row in rows[1:] if len(row) == len(names)]  # the last row of a running one may be cut
     try:
-        values = np.array(complete, dtype=float)
+        values = np.array(rows[1:], dtype=float)
     except ValueError as error:
         raise Missing(f"{path}: not a history: {error}") from error
     return {name: values[:, i] for i, name in enumerate(names)}
@@ -157,7 +158,7 @@ def plot_all_histories(run):
 
 def plot_rigid_cylinder(run, reference):
     history = run.history_with("pressure")
-    exact = read_history(reference / "midline_wall_pressure.csv")
+    exact = read_history(reference / "midline_wall_pressure.csv", of_a_run=False)
     sources, table = read_reference_table(reference / "metrics.csv")
     figure, axis = plt.subplots(figsize=(9, 5))
     column = next(key for key in exact if key != "time")

@@ -35,6 +35,7 @@ class SolidPairs {
   /// Inverse deformation gradient of a particle of an updated body, d X_a/d x_b; kept where there is water to see its surface.
   const Mat3& inverse_deformation(std::uint32_t particle) const { return inverse_deformation_[particle]; }
   std::size_t memory_bytes() const;
+  void visit_state(StateVisitor& state) { state("inverse deformation", inverse_deformation_); }
 
  private:
   void pack(const SolidParticles& particles);

@@ -16,6 +16,28 @@ void SolidParticles::resize(std::size_t n) {
 
 std::size_t SolidParticles::memory_bytes() const { return size() * (4 * sizeof(Vec3) + (6 + 15) * sizeof(double)); }
 
+void SolidParticles::visit_state(StateVisitor& state) {
+  state("position", x);
+  state("velocity", v);
+  state("mass", mass);
+  state("density", rho);
+  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator[k]);
+  state("pressure", pressure);
+  state("viscous pressure", viscous_pressure);
+  state("plastic strain", plastic_strain);
+  state("temperature", temperature);
+  state("damage", damage);
+  state("energy", energy);
+  state("plastic energy", plastic_energy);
+  state("viscous energy", viscous_energy);
+  state("contact pressure", contact_pressure);
+  state("contact reference", contact_reference);
+  state("sound", sound);
+  state("force", force);
+  state("heat", heat);
+  state("rate", rate);
+}
+
 Mat3 SolidParticles::stress(std::size_t i) const {
   Mat3 s;
   s << deviator[0][i], deviator[5][i], deviator[4][i],  //

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/state.hpp"
 #include "core/vector.hpp"
 #include "materials/stress_update.hpp"
 
@@ -33,6 +34,7 @@ struct SolidParticles {
   std::size_t size() const { return x.size(); }
   void resize(std::size_t n);
   std::size_t memory_bytes() const;
+  void visit_state(StateVisitor& state);
   Mat3 stress(std::size_t i) const;  ///< Cauchy, without viscosity [Pa]
 };
 

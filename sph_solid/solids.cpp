@@ -302,6 +302,28 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
   show_surface_motion();
 }
 
+/// What a step goes on from, and what others read between two steps.
+void Solids::Implementation::visit_state(StateVisitor& state) {
+  state("time", time);
+  state("steps", steps);
+  state("last step", last_step);
+  state("received work", received_work);
+  state("plane work", plane_work);
+  state("plane impulse", plane_impulse);
+  state("integrator jumps", integrator_jumps);
+  state("integrator held", integrator_held);
+  state.part("particles", [&] { particles.visit_state(state); });
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g].lagrangian) state.part("body " + std::to_string(g), [&] { groups[g].lagrangian->visit_state(state); });
+  if (pairs) state.part("pairs", [&] { pairs->visit_state(state); });
+  state("acceleration", acceleration);
+  state("impulse force", impulse_force);
+  state("surface position", surface_position);
+  state("surface velocity", surface_velocity);
+  state("surface acceleration", surface_acceleration);
+  state("timers", timers);
+}
+
 // ---- The public face ------------------------------------------------------------------------------------------------
 
 Solids::Solids(const Settings& settings, const sph::Settings& around)
@@ -310,6 +332,7 @@ Solids::~Solids() = default;
 Solids::Solids(Solids&&) noexcept = default;
 Solids& Solids::operator=(Solids&&) noexcept = default;
 
+void Solids::visit_state(StateVisitor& state) { self_->visit_state(state); }
 double Solids::stable_step() const { return self_->stable_step(); }
 void Solids::advance(double t_end, std::span<const Vec3> impulse) { self_->advance(t_end, impulse); }
 

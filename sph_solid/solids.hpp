@@ -56,6 +56,8 @@ class Solids : public DeformableBody {
   /// On the wet faces where they are meshed, else on the surface of the nearest body.
   std::function<Vec3()> follow_surface(const Vec3& reference_position, double reach) const override;
 
+  void visit_state(StateVisitor& state) override;
+
   BodyLedger ledger() const override;
   std::span<const Vec3> positions() const override;
   std::span<const double> masses() const override;

@@ -65,6 +65,8 @@ struct Solids::Implementation {
   void find_acceleration();
   double held_back(double dt) const;
 
+  void visit_state(StateVisitor& state);
+
   const SolidGroup& group_of(std::uint32_t particle) const;
   std::uint32_t fastest() const;  // the particle that limits the step
   /// Throws NumericalStop where a step's new stresses or forces cannot be gone on with. Positions and velocities are left in

@@ -240,6 +240,12 @@ void TotalLagrangian::find_rate(SolidParticles& p, std::uint32_t i, const Mat3& 
   p.rate[i] = squeeze * (p.sound[i] * (1.0 + viscosity_.linear) + 2.0 * closing) / spacing_;
 }
 
+void TotalLagrangian::visit_state(StateVisitor& state) {
+  state("deformation", deformation_);
+  state("stretched", stretched_);
+  state("stiffness", stiffness_);
+}
+
 double TotalLagrangian::hourglass_energy() const {
   return 0.5 * blocked_sum<double>(0, end_ - begin_, [&](std::uint32_t i) { return stiffness_[i] * stretched_[i]; });
 }

@@ -31,6 +31,8 @@ class TotalLagrangian {
   /// Adds the forces of the present stresses.
   void add_forces(SolidParticles& particles);
 
+  void visit_state(StateVisitor& state);
+
   double hourglass_energy() const;  ///< [J]
   const Mat3& deformation(std::uint32_t particle) const { return deformation_[particle - begin_]; }
   std::size_t memory_bytes() const;

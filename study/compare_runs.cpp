@@ -11,6 +11,7 @@
 #include "judge/metric_names.hpp"
 #include "judge/reference.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 #include "study/compared.hpp"
 #include "study/compared_blocks.hpp"
@@ -206,7 +207,8 @@ std::string settings_csv(const std::vector<DifferingSetting>& settings) {
 void add_notes(const std::vector<ComparedRun>& runs, const std::vector<Compared>& all, std::vector<std::string>& notes) {
   for (const ComparedRun& run : runs)
     if (const output::RunRecord& record = run.folder.record; record.status != "done")
-      notes.push_back(run.folder.path.string() + " was " + record.status + ": " + record.message);
+      notes.push_back(run.folder.path.string() + (record.status == "failed" ? " " : " was ") + record.status + ": " +
+                      record.message);
   std::string only_once;
   for (const Compared& each : all)
     if (each.quantity.count() == 1) only_once += (only_once.empty() ? "" : "; ") + each.quantity.title();
@@ -265,7 +267,7 @@ void compare_runs(const CompareOptions& options) {
   blocks.push_back(norms);
   if (reference.table)
     for (ComparedBlock& block : reference_blocks(runs, *reference.table)) blocks.push_back(std::move(block));
-  output::make_folder(options.output);
+  const output::FolderLock lock(options.output, "undex compare");
   output::write_text_atomically(options.output / "comparison.csv",
                                 csv_header(labels) + settings_csv(differing) + blocks_csv(blocks));
   output::write_text_atomically(options.output / "curves.csv", curves_csv(all, labels, reference.table));

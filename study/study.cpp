@@ -1,18 +1,16 @@
 #include "study/study.hpp"
 
-#include <fcntl.h>
 #include <fnmatch.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <memory>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "judge/comparisons.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 #include "scene/suggestion.hpp"
 #include "study/study_notes.hpp"
@@ -23,25 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Held as long as a study is at work in its folder.
-class Lock {
- public:
-  explicit Lock(const fs::path& folder) : file_(open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (file_ < 0) output::throw_file_error("write", folder / ".lock", errno);
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      close(file_);
-      throw UsageError("another undex study is at work in " + folder.string() +
-                       "; wait for it, or choose another folder with -o");
-    }
-  }
-  ~Lock() { close(file_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  int file_;
-};
-
 /// A folder that a study may write into: none yet, an empty one, or a study's.
 void require_study_folder(const fs::path& folder) {
   std::error_code ignored;
@@ -49,7 +28,8 @@ void require_study_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored))
     throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
   bool empty = true;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) empty = empty && entry.path().filename() == ".lock";
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    empty = empty && entry.path().filename() == output::folder_lock_name;
   if (!empty && !fs::exists(folder / "study.toml", ignored))
     throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
 }
@@ -136,11 +116,8 @@ int run_study(const StudyOptions& options) {
   const fs::path folder = options.output.empty() ? study.output : options.output;
   require_study_folder(folder);
   require_match(study, options.only);
-  std::unique_ptr<Lock> lock;
-  if (!options.list) {
-    output::make_folder(folder);
-    lock = std::make_unique<Lock>(folder);
-  }
+  std::optional<output::FolderLock> lock;
+  if (!options.list) lock.emplace(folder, "undex study");
   StudyWork work(study, references, folder, options.quiet);
   const auto left_over_now = [&] { return left_over_text(left_over(work.states(), study, folder / "runs")); };
   const Plan plan = plan_of(study, work.states(), options);

@@ -6,7 +6,9 @@
 
 #include "study/run_settings.hpp"
 #include "core/errors.hpp"
+#include "output/checkpoint.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "study/run_labels.hpp"
 
 namespace undex::study {
@@ -84,6 +86,8 @@ RunState run_state(const fs::path& folder, const scene::Study& study, const scen
     state.message = outcome->message;
     state.finished = holds(study.cpu_limit, outcome->cpu_limit_s) || holds(study.wall_limit, outcome->wall_limit_s);
   }
+  for (const char* name : output::checkpoint_names)
+    state.resumable = state.resumable || (!state.finished && fs::exists(folder / name, error));
   if (!state.finished) state.reason = state.status == "limit" ? "the limit that ended it has been raised" : "half-finished";
   return state;
 }
@@ -120,6 +124,7 @@ void clear_run_folder(const fs::path& folder) {
     if (!has("log.txt") && !has("resolved.toml") && !fs::is_empty(folder, error))
       throw UsageError(folder.string() +
                        " is in the way: it is no run's folder, and a run of the study needs its name; move it away");
+    const output::FolderLock not_in_use(folder, "undex study");
     fs::remove_all(folder, error);
     if (error)
       throw FileError(folder.string() + ": cannot be cleared: " + error.message() +

@@ -15,8 +15,9 @@ namespace undex::study {
 
 /// What stands in the folder of a run.
 struct RunState {
-  bool finished = false;  ///< need not be computed again: done, stopped by the numerics, or by a limit that still holds
-  std::string reason;     ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
+  bool finished = false;   ///< need not be computed again: done, stopped by the numerics, or by a limit that still holds
+  bool resumable = false;  ///< it has begun, and has a checkpoint to go on from
+  std::string reason;      ///< why it is to be computed: "not there", "changed: scheme.alpha", "half-finished", ...
   std::filesystem::path folder;
   std::string status = "not run";  ///< see StudyRow
   std::string message;

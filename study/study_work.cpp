@@ -3,12 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 
 #include "core/errors.hpp"
+#include "core/signals.hpp"
 #include "output/files.hpp"
+#include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 
 namespace undex::study {
@@ -19,15 +20,7 @@ namespace fs = std::filesystem;
 volatile std::sig_atomic_t first_signal = 0, signals = 0;
 void count_signal(int number) {
   if (signals == 0) first_signal = number;
-  signals = signals + 1;
-}
-
-/// SIGINT and SIGTERM end the runs under way, which then record what they have; a second one kills them.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = count_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  if (signals == 0 || end_signal(number).insists) signals = signals + 1;
 }
 
 std::string quoted_for_shell(const std::string& text) {
@@ -88,6 +81,7 @@ void StudyWork::rename_folders() {
   for (std::size_t r = 0; r < states_.size(); ++r) {
     const fs::path own = folder_ / "runs" / study_.runs[r].name;
     if (states_[r].folder == own) continue;
+    { const output::FolderLock not_in_use(states_[r].folder, "undex study"); }
     std::error_code error;
     fs::rename(states_[r].folder, own, error);
     if (error) throw FileError(own.string() + ": " + states_[r].folder.string() + " cannot be renamed to it: " + error.message());
@@ -96,14 +90,14 @@ void StudyWork::rename_folders() {
 }
 
 void StudyWork::forget(const std::vector<std::size_t>& runs) {
-  for (const std::size_t run : runs) states_[run].finished = false;
+  for (const std::size_t run : runs) states_[run].finished = states_[run].resumable = false;
 }
 
 int StudyWork::compute(std::vector<std::size_t> runs, int jobs) {
   std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) { return rows_[a].h > rows_[b].h; });
   pending_.assign(runs.rbegin(), runs.rend());
   StudyProgress progress(runs.size(), quiet_);
-  catch_signals();
+  catch_end_signals(count_signal, /*second_kills=*/false);
   while (!active_.empty() || (!pending_.empty() && signals == 0)) {
     start_waiting(jobs);
     pass_on_signals(progress);
@@ -125,14 +119,22 @@ void StudyWork::start_waiting(int jobs) {
 
 void StudyWork::start(std::size_t run) {
   RunState& state = states_[run];
-  Job job{run, state.finished, nullptr};
-  if (!job.repetition) {
-    state.folder = folder_ / "runs" / study_.runs[run].name;
+  const fs::path own = folder_ / "runs" / study_.runs[run].name;
+  Job job{.run = run, .repetition = state.finished, .resumes = state.resumable && state.folder == own, .child = nullptr};
+  if (job.resumes) {
+    job.cpu_before = state.record.cpu_time_s;
+    job.wall_before = state.record.wall_time_s;
+    state.resumable = false;  // where it cannot, it begins anew
+  } else if (!job.repetition) {
+    state.folder = own;
     clear_run_folder(state.folder);
+  }
+  if (!job.repetition) {
     state.cpu_times.clear();
     state.wall_times.clear();
   }
-  const auto arguments = run_arguments(study_.runs[run], job.repetition ? repetition_folder(run) : state.folder);
+  const auto arguments = job.resumes ? std::vector<std::string>{"resume", state.folder.string(), "-q"}
+                                     : run_arguments(study_.runs[run], job.repetition ? repetition_folder(run) : state.folder);
   std::string command = "undex";
   for (const std::string& argument : arguments) command.append(" ").append(quoted_for_shell(argument));
   const fs::path log = state.folder / (job.repetition ? "repetition.txt" : "log.txt");
@@ -159,8 +161,8 @@ void StudyWork::enforce_limits(Job& job) const {
     if (job.child->wall_time() > job.ended_at + patience) job.child->send(SIGKILL);
     return;
   }
-  if (study_.cpu_limit && job.child->cpu_time() > *study_.cpu_limit) job.cpu_limit = *study_.cpu_limit;
-  if (study_.wall_limit && job.child->wall_time() > *study_.wall_limit) job.wall_limit = *study_.wall_limit;
+  if (study_.cpu_limit && job.cpu_before + job.child->cpu_time() > *study_.cpu_limit) job.cpu_limit = *study_.cpu_limit;
+  if (study_.wall_limit && job.wall_before + job.child->wall_time() > *study_.wall_limit) job.wall_limit = *study_.wall_limit;
   if (job.cpu_limit == 0 && job.wall_limit == 0) return;
   job.ended_at = job.child->wall_time();
   job.child->send(SIGTERM);
@@ -190,6 +192,8 @@ bool StudyWork::take_in(const Job& job, const ChildProcess::End& end) {
   RunState& state = states_[job.run];
   if (job.repetition) {
     if (!take_in_repetition(job)) return false;  // not repeated again: the times so far are what there is
+  } else if (job.resumes && end.exit_code == exit_restart) {
+    return signals == 0;  // another program or machine, or a damaged checkpoint: the run begins anew
   } else {
     write_outcome(state.folder / "outcome.json", outcome_of(job, end));
     state = run_state(state.folder, study_, run);

@@ -36,9 +36,11 @@ class StudyWork {
   struct Job {
     std::size_t run;
     bool repetition;  ///< in a folder of its own, for the time only
+    bool resumes;     ///< from its checkpoint
     std::unique_ptr<ChildProcess> child;
-    double cpu_limit = 0, wall_limit = 0;  ///< the one that it passed
-    double ended_at = 0;                   ///< wall time at which it was told to end
+    double cpu_limit = 0, wall_limit = 0;    ///< the one that it passed
+    double ended_at = 0;                     ///< wall time at which it was told to end
+    double cpu_before = 0, wall_before = 0;  ///< of the same run until its checkpoint
   };
 
   std::filesystem::path repetition_folder(std::size_t run) const { return states_[run].folder / "repetition"; }

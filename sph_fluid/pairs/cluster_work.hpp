@@ -106,6 +106,7 @@ struct PairH {
 /// What the pairs of one loop have in common.
 struct PairKind {
   bool constant_h, gas, alike;
+  double least_pressure;
 };
 
 /// One pass over one cluster: its candidates, the pairs with them, and the sums.
@@ -169,6 +170,7 @@ class ClusterWork {
     kind.constant_h = !own_.variable_h && !other.variable_h && own_.h_max == other.h_max;
     kind.gas = own_.gas || other.gas;
     kind.alike = other.material == own_.material;
+    kind.least_pressure = own_.least_pressure > other.least_pressure ? own_.least_pressure : other.least_pressure;
     // A pair's h is the mean of two.
     const double reach = kernel_.support * (kind.constant_h ? own_.h_max : 0.5 * (h_cluster_ + other.h_max));
     // Where both sides receive their part, the pairs of two clusters belong to the first, and a cluster meets what comes after
@@ -177,8 +179,9 @@ class ClusterWork {
     // each pair: the other is that of the image of i.
     if (Pass::symmetric && !images && g < cluster_.group) return;
     if (Pass::symmetric && !takes(own_, other)) return;
-    if (Pass::partners == Partners::own_body && !(g == cluster_.group && own_.own_pairs)) return;
-    if (Pass::partners == Partners::other_bodies && g == cluster_.group) return;
+    const int body = images ? other.images_of : g;
+    if (Pass::partners == Partners::own_body && !(body == cluster_.group && own_.own_pairs)) return;
+    if (Pass::partners == Partners::other_bodies && body == cluster_.group) return;
     const double *x = images ? in_.images.x : in_.x, *y = images ? in_.images.y : in_.y, *z = images ? in_.images.z : in_.z;
     const std::uint32_t next = images ? 0 : cluster_.begin + cluster_.count;
     struct {
@@ -206,7 +209,7 @@ class ClusterWork {
   }
 
   void with_walls() {
-    const PairKind kind{.constant_h = true, .gas = own_.gas, .alike = true};
+    const PairKind kind{.constant_h = true, .gas = own_.gas, .alike = true, .least_pressure = own_.least_pressure};
     const double reach = kernel_.support * h_cluster_;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       list_.size = 0;
@@ -265,6 +268,7 @@ class ClusterWork {
     Pair<V> pair;
     pair.gas = kind.gas;
     pair.alike = kind.alike;
+    pair.least_pressure = T(kind.least_pressure);
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());
     for (; block != end; block += List::stride) {
@@ -356,15 +360,21 @@ requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
+  bool out_of_memory = false;  // no room for candidates: the others go on, for some wait for this block
 #pragma omp parallel for schedule(monotonic : dynamic, 1)
   for (std::uint32_t b = 0; b < in.block_count; ++b) {
     if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
     long long met = 0;
-    for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
-      met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
+    try {
+      for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
+        met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
+    } catch (...) {
+      __atomic_store_n(&out_of_memory, true, __ATOMIC_RELAXED);
+    }
     out.interactions[b] = met;
     __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
   }
+  if (out_of_memory) throw_out_of_memory();
 }
 
 /// The loop of a pass: that of the kernel where it is one of `Own`, else the one that serves any.

@@ -16,6 +16,7 @@ struct Pair {
   Mask<Element<V>> in_reach;  ///< within the kernel's support; F is zero elsewhere
   bool gas;                   ///< is one of them gas?
   bool alike;                 ///< are they of one material?
+  Element<V> least_pressure;  ///< that both laws carry, <= 0 [Pa]
 };
 
 /// A fluid particle; `read(k)` gives entry k of its row.

@@ -34,6 +34,8 @@ void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
   }
 }
 
+void throw_out_of_memory() { throw std::bad_alloc(); }
+
 void release(Scratch& s) {
   for (void* data :
        {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y), static_cast<void*>(s.z)})

@@ -44,6 +44,7 @@ struct GroupView {
   bool variable_h;
   bool gas;                    ///< bubble gas or detonation products, not liquid
   std::uint32_t material = 0;  ///< one number for all groups of one material
+  double least_pressure = 0;   ///< that a pair may have, 0 or the tension that the law carries [Pa]
   bool fast = false;           ///< see PairChoice
   bool own_pairs = true;       ///< do its particles pair with each other? (A solid that keeps its neighbours does not ask here.)
   int images_of = -1;          ///< a group of images (wall_images.hpp): the group that they show
@@ -77,9 +78,11 @@ struct Scratch {
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
   std::uint32_t capacity = 0;                       ///< of the last four
 };
-/// Makes room, keeping what is there.
+/// Makes room, keeping what is there. Throws std::bad_alloc, which must not leave a parallel region.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
 void release(Scratch&);
+/// Throws std::bad_alloc. Out of line: what is compiled per instruction set instantiates nothing of a library.
+[[noreturn]] void throw_out_of_memory();
 
 /// A kernel as the loops need it.
 struct KernelChoice {

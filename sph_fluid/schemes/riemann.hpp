@@ -19,7 +19,10 @@
 //   central p = (rho_j p_i + rho_i p_j)/(rho_i + rho_j),      central u = (Z_i u_i + Z_j u_j)/(Z_i + Z_j)
 // Across a contact the acceleration is continuous, not the gradient of p: the slopes of p are as the densities (Hu, Adams 2007,
 // J. Comput. Phys. 227, doi 10.1016/j.jcp.2007.07.013), and the heavy side hardly feels the light one: the contact moves with
-// it. Plain averages throw light gas off the water that drives it. p* >= 0.
+// it. Plain averages throw light gas off the water that drives it. p* is never less than what both laws carry: 0, or the
+// tension of a liquid without cavitation (FluidLaw's least_pressure). In tension b is 1: particles on a lattice that pull at each
+// other are unstable against moving in pairs (Swegle, Hicks, Attaway 1995, J. Comput. Phys. 116, 123), at a rate sqrt(-p/rho)/dx,
+// which the full dissipation of the jump outruns by c over sqrt(-p/rho). Reconstruction keeps it away from smooth waves.
 // In all pairs with gas all three rates carry the factor 2/(f_i + f_j), f being the filling (reconstruction.hpp) of gas and 1 of
 // liquids. Without it (f = 1 for all) a volume that is wrong by a factor f changes f times as fast as its surroundings: after
 // an expansion by f/(f - 1) it is infinite. One factor a pair: nothing is lost of conservation.
@@ -64,6 +67,12 @@ struct Riemann {
 
   UNDEX_INLINE static V switched(V closing, V sound) { return minimum(12 * closing, sound) * reciprocal(sound); }
 
+  /// p* of the central pressure, the switch b (`whole` where it is full) and Z times the jump; never below what the laws carry.
+  UNDEX_INLINE static V star_pressure(V central, V b, V impedance, V jump, T least, V whole = broadcast(T(1))) {
+    if (least < 0) b = central < 0 ? whole : b;
+    return maximum(central + b * impedance * jump, broadcast(least));
+  }
+
   /// Velocity of i relative to j along the pair, and the solution of its Riemann problem.
   struct Flux {
     V inverse_r, u, p_star, u_star;
@@ -94,7 +103,7 @@ struct Riemann {
       central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * inverse_rho;
       central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
     }
-    const V p_star = maximum(central_p + switched(closing, sound) * (Zi * Zj * inverse_Z) * jump, V{});
+    const V p_star = star_pressure(central_p, switched(closing, sound), Zi * Zj * inverse_Z, jump, pair.least_pressure);
     const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
     return {inverse_r, u, p_star, u_star};
   }
@@ -125,7 +134,8 @@ struct Riemann {
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
-    const V p_star = maximum(i.p + T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho * i.c * jump, V{});
+    const V p_star =
+        star_pressure(i.p, T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho, i.c, jump, pair.least_pressure, T(0.5) * i.rho);
     add_wall_force(2 * pair.F * p_star, m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * m.approach;
     si.compression += D;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/carried_exception.hpp"
 #include "core/surface.hpp"
 #include "sph_fluid/walls/reflection.hpp"
 
@@ -80,6 +81,7 @@ class FaceSearch {
 std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, const Particles& particles,
                               std::span<const ParticleRange> ranges, double beyond) {
   std::vector<std::vector<WallFoot>> found(omp_get_max_threads());
+  CarriedException out_of_memory;
 #pragma omp parallel
   {
     std::vector<WallFoot>& mine = found[omp_get_thread_num()];
@@ -88,11 +90,14 @@ std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, cons
       const FaceSearch search(seen.patch(wall, f), beyond);
       for (const ParticleRange& range : ranges)
         if (range.first < range.last && range.depth > 0.0)
-          search.find(particles, range, [&](std::uint32_t i, const PatchPoint& at) {
-            mine.push_back({.particle = i, .wall = wall, .face = f, .at = at});
+          out_of_memory.run([&] {
+            search.find(particles, range, [&](std::uint32_t i, const PatchPoint& at) {
+              mine.push_back({.particle = i, .wall = wall, .face = f, .at = at});
+            });
           });
     }
   }
+  out_of_memory.rethrow();
   std::vector<WallFoot> feet;
   for (const auto& part : found) feet.insert(feet.end(), part.begin(), part.end());
   return feet;

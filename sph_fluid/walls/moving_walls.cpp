@@ -1,6 +1,7 @@
 #include "sph_fluid/walls/moving_walls.hpp"
 
 #include <cstddef>
+#include <string>
 
 namespace undex::sph {
 namespace {
@@ -89,6 +90,28 @@ void MovingWalls::show_between(const std::vector<WallMotion>& before, const std:
   std::vector<WallMotion> motions;
   for (std::size_t w = 0; w < after.size(); ++w) motions.push_back(between(before[w], after[w], dt, share));
   show(motions);
+}
+
+void WallMotion::visit_state(StateVisitor& state) {
+  state("position", position);
+  state("velocity", velocity);
+  state("normal", normal);
+}
+
+void WallLoads::visit_state(StateVisitor& state) {
+  state("mirrors", mirrors);
+  state("lined", lined);
+}
+
+void MovingWalls::visit_state(StateVisitor& state) {
+  std::vector<WallMotion> motion = motions();
+  WallLoads impulse = impulses();
+  for (std::size_t w = 0; w < motion.size(); ++w)
+    state.part("motion " + std::to_string(w), [&] { motion[w].visit_state(state); });
+  state.part("impulse", [&] { impulse.visit_state(state); });
+  if (!state.restores()) return;
+  show(motion);
+  set_impulses(impulse);
 }
 
 WallLoads sum_of(const WallLoads& a, const WallLoads& b) { return {sum_of(a.mirrors, b.mirrors), sum_of(a.lined, b.lined)}; }

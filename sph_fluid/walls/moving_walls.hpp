@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/state.hpp"
 #include "core/vector.hpp"
 
 namespace undex::sph {
@@ -49,11 +50,15 @@ using PointLoads = std::vector<std::vector<Vec3>>;
 /// Loads on walls of either kind.
 struct WallLoads {
   PointLoads mirrors, lined;
+
+  void visit_state(StateVisitor& state);
 };
 
 /// Where walls are, as an evaluation sees them.
 struct WallMotion {
   std::vector<Vec3> position, velocity, normal;  ///< normals of lined walls only
+
+  void visit_state(StateVisitor& state);
 };
 
 struct MovingWalls {
@@ -74,6 +79,9 @@ struct MovingWalls {
   void show(const std::vector<WallMotion>& motions);
   /// Walls as they are at a share of a step of dt [s], on the cubic through both its ends.
   void show_between(const std::vector<WallMotion>& before, const std::vector<WallMotion>& after, double dt, double share);
+
+  /// Where all walls are, and what they have received.
+  void visit_state(StateVisitor& state);
 };
 
 /// a + b.

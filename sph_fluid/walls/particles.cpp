@@ -11,6 +11,19 @@ void copy_all(std::vector<T>& to, const std::vector<T>& from) {
   for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
 }
 
+/// values[k] = array[place[k]]; back: array[place[k]] = values[k]. `array` may be empty.
+template <class T>
+void visit_in_order(StateVisitor& state, std::string_view name, std::vector<T>& array, const std::vector<std::uint32_t>& place) {
+  std::vector<T> values(array.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = array[place[k]];
+  state(name, values);
+  if (!state.restores()) return;
+  array.resize(values.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < values.size(); ++k) array[place[k]] = values[k];
+}
+
 }  // namespace
 
 void Particles::resize(std::size_t n, bool with_energy) {
@@ -130,6 +143,22 @@ void* Particles::second_rows() {
   if (!gradient.empty()) return gradient.data();
   if (!corrected.empty()) return corrected.data();
   return viscosity.data();
+}
+
+void Particles::visit_state(StateVisitor& state, bool with_evaluated) {
+  std::vector<std::uint32_t> of_id(size());
+  for (std::size_t i = 0; i < size(); ++i) of_id[id[i]] = std::uint32_t(i);
+  state("place in memory", of_id);
+  const auto each = [&](const auto& array, auto& owner) {
+    if (array.role == Role::index || (array.role == Role::evaluated && !with_evaluated)) return;
+    constexpr std::size_t count = std::tuple_size_v<decltype(array.member)>;
+    for (std::size_t a = 0; a < count; ++a) {
+      const std::string component = count > 1 ? std::string("_") + "xyz"[a] : std::string();
+      visit_in_order(state, std::string(array.name) + component, owner.*array.member[a], of_id);
+    }
+  };
+  std::apply([&](const auto&... array) { (each(array, static_cast<ParticleState&>(*this)), ...); }, state_arrays);
+  std::apply([&](const auto&... array) { (each(array, *this), ...); }, further_arrays);
 }
 
 std::size_t Particles::memory_bytes() const {

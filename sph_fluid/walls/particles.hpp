@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/state.hpp"
 #include "sph_fluid/pairs/rows.hpp"
 
 namespace undex::sph {
@@ -25,7 +26,7 @@ struct OtherRates {
   EarlierRates earlier;
 };
 
-/// What changes in a step: with masses and numbers, all that a restart needs.
+/// What changes in a step.
 struct ParticleState {
   std::vector<double> x, y, z;          ///< [m]
   std::vector<double> vx, vy, vz;       ///< [m/s]
@@ -80,6 +81,9 @@ struct Particles : ParticleState {
   /// The rows of a scheme that pairs read beside `predicted`; null where there are none.
   void* second_rows();
   std::size_t memory_bytes() const;
+  /// All arrays that the next step reads, each in the order of the particles' numbers (id), and where in memory each lies.
+  /// `with_evaluated`: are those of Role::evaluated among them?
+  void visit_state(StateVisitor& state, bool with_evaluated);
 
  private:
   template <class T>
@@ -93,7 +97,7 @@ enum class Role {
   start,      ///< of the state at the step's beginning
   rate,       ///< of the last evaluations
   evaluated,  ///< of the last evaluation, which alone reads it; but a part keeps what the whole has found of slow particles
-  scratch,    ///< written anew in every evaluation
+  scratch,    ///< written anew in every evaluation; the stable step and outputs read it until then
   index,      ///< of a part
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "core/carried_exception.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/walls/reflection.hpp"
 
@@ -61,13 +62,15 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
                            const SlipFaces& faces, int dimension) {
   if ((feet_.empty() && faces.empty()) || range.depth <= 0.0) return;
   std::vector<std::vector<Image>> found(omp_get_max_threads());
+  CarriedException out_of_memory;
 #pragma omp parallel
   {
     std::vector<Image>& mine = found[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
-      add_images_of(i, particles, seen, faces, range.depth, dimension, mine);
+      out_of_memory.run([&] { add_images_of(i, particles, seen, faces, range.depth, dimension, mine); });
   }
+  out_of_memory.rethrow();
   for (const auto& part : found) {
     const int before = int(images_.size());
     for (Image image : part) {

@@ -33,6 +33,9 @@ class WallImages {
   double put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, Particles& particles,
                   PointLoads& received) const;
 
+  /// The feet, by which the next step finds who has crossed a wall.
+  void visit_state(StateVisitor& state) { state("feet", feet_); }
+
   /// Particles are sorted anew: no images, no feet.
   void forget();
 

@@ -104,6 +104,7 @@ void Evaluation::equation_of_state(ParticleSet& set, const Ahead& ahead) {
                          .variable_h = group.body->variable_h,
                          .gas = group.body->variable_h,
                          .material = group.material,
+                         .least_pressure = std::min(0.0, materials::least_pressure(group.body->material.law)),
                          .fast = group.fast});
     h_max = std::max(h_max, group.h_max);
   }
@@ -310,6 +311,11 @@ void Evaluation::finish_rates(ParticleSet& set) {
     }
     set.healthy = set.healthy && ok;
   }
+}
+
+void Evaluation::visit_state(StateVisitor& state) {
+  state("interactions", interactions_);
+  state.part("signals", [&] { signals_.visit_state(state); });
 }
 
 }  // namespace undex::sph

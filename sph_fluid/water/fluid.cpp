@@ -59,6 +59,8 @@ const std::vector<Vec3>& Fluid::wall_force(LinedIndex index) const {
 
 StepLimit Fluid::step_limit() { return self_->step_limit(); }
 void Fluid::step(double dt) { self_->step(dt); }
+void Fluid::visit_state(StateVisitor& state) { self_->visit_state(state); }
+void Fluid::find_rates_anew() { self_->find_rates_anew(); }
 Ledger Fluid::ledger() const { return self_->ledger(); }
 FluidPoint Fluid::at(const Vec3& point) const { return self_->at(point); }
 double Fluid::maximum_pressure() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/point_values.hpp"
+#include "core/state.hpp"
 #include "core/timers.hpp"
 #include "core/vector.hpp"
 #include "sph_fluid/settings.hpp"
@@ -76,6 +77,11 @@ class Fluid {
   /// Advances by dt [s]. Throws NumericalStop when the state that results, or its rates, are not finite or beyond all physics.
   /// What is left then is the last healthy state, before the step or in its middle (see time()), for output.
   void step(double dt);
+
+  /// What the next step goes on from. Walls are as their owners have shown them.
+  void visit_state(StateVisitor& state);
+  /// The state of a step that went wrong (see step) is gone on with: its rates are found anew, as at a start.
+  void find_rates_anew();
 
   Ledger ledger() const;
   /// Shepard averages.

@@ -32,6 +32,10 @@ struct Fluid::Implementation : Water {
   /// A wall has joined: rates are no longer those of the scene.
   void expect_walls();
 
+  // The state between two steps: state.cpp.
+  void visit_state(StateVisitor& state);
+  void find_rates_anew();
+
   // What others ask: queries.cpp.
   StepLimit step_limit();
   Ledger ledger() const;

@@ -19,7 +19,7 @@ void step_leapfrog(Water& water, double dt) {
     if (!water.half_kick(all, dt)) {
       const std::string what = what_is_wrong(all, water.settings, water.clock);
       water.half_kick(all, -dt);
-      throw NumericalStop(what);
+      throw NumericalStop(what, /*resumable=*/true);
     }
     water.drift(all, dt);
     water.cross_mirrors(all);
@@ -28,7 +28,7 @@ void step_leapfrog(Water& water, double dt) {
   if (!all.healthy) {
     const std::string what = what_is_wrong(all, water.settings, water.clock);
     stand_half_way(water, dt);
-    throw NumericalStop(what);
+    throw NumericalStop(what, /*resumable=*/true);
   }
   const auto timer = water.timers.measure("integration");
   water.half_kick(all, dt);

@@ -186,6 +186,13 @@ double LocalSteps::substep(double left) const {
   return left / std::ceil(left / limit - 1e-9);
 }
 
+void LocalSteps::begin_near_set() {
+  near_ = {};
+  near_.groups = water_.all.groups;
+  near_.choice = PairChoice::fast;
+  near_.wall_force = water_.walls.unloaded();
+}
+
 void LocalSteps::gather(double dt) {
   const auto timer = water_.timers.measure("local steps");
   const ParticleSet& all = water_.all;
@@ -202,11 +209,7 @@ void LocalSteps::gather(double dt) {
     if (group.fast)
       for (std::uint32_t i = group.begin; i < group.end; ++i) cells.mark(place_of(p, i));
 
-  if (near_.groups.size() != all.groups.size()) {
-    near_.groups = all.groups;
-    near_.choice = PairChoice::fast;
-    near_.wall_force = water_.walls.unloaded();
-  }
+  if (near_.groups.size() != all.groups.size()) begin_near_set();
   std::vector<std::uint32_t>& place = near_.particles.place;
   place.clear();
   for (std::size_t g = 0; g < all.groups.size(); ++g) {
@@ -235,6 +238,17 @@ void LocalSteps::join() {
   all.particles.other = {};
   all.particles.start = {};
   all.last_step = 0;
+}
+
+void LocalSteps::visit_state(StateVisitor& state) {
+  state("substeps", substeps_);
+  if (!parted()) return;
+  if (state.restores()) {
+    begin_near_set();
+    wall_force_ = water_.walls.unloaded();
+  }
+  state.part("near", [&] { near_.visit_loads(state); });
+  state.part("wall force", [&] { wall_force_.visit_state(state); });
 }
 
 }  // namespace undex::sph

@@ -48,10 +48,14 @@ class LocalSteps {
   const WallLoads& wall_force() const { return parted() ? wall_force_ : water_.all.wall_force; }
   long substeps() const { return substeps_; }
   std::size_t memory_bytes() const { return near_.memory_bytes(); }
+  /// After that of the whole set.
+  void visit_state(StateVisitor& state);
 
  private:
   std::vector<char> best_fast_bodies(const std::vector<BodyLimit>& limits) const;
   void evaluate_both();
+  /// An empty near set, of the bodies as they are parted.
+  void begin_near_set();
   /// Substeps of the near set over dt, while walls go from one motion to the other.
   void take_substeps(double dt, double bend, const std::vector<WallMotion>& before, const std::vector<WallMotion>& after);
   double substep(double left) const;

@@ -20,6 +20,25 @@ std::size_t ParticleSet::memory_bytes() const {
   return bytes + interactions.capacity() * sizeof(long long);
 }
 
+void ParticleSet::visit_loads(StateVisitor& state) {
+  state("last step", last_step);
+  state.part("wall force", [&] { wall_force.visit_state(state); });
+  state("wall power", wall_power);
+}
+
+void ParticleSet::visit_state(StateVisitor& state) {
+  state("pairs", choice);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    state.part("body " + std::to_string(g), [&] {
+      state("fast", groups[g].fast);
+      state("largest h", groups[g].h_max);
+    });
+  state.part("particles", [&] { particles.visit_state(state, choice != PairChoice::all); });
+  state("reach", reach);
+  visit_loads(state);
+  images.visit_state(state);
+}
+
 const Body& body_of(const ParticleSet& set, std::uint32_t i) {
   for (const Group& group : set.groups)
     if (i < group.end) return *group.body;

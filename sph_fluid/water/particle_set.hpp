@@ -48,6 +48,10 @@ struct ParticleSet {
   /// Is it one with particles of this group that move by the rates in hand?
   bool moves(const Group& group) const { return choice == PairChoice::all || group.fast == (choice == PairChoice::fast); }
   std::size_t memory_bytes() const;
+  /// What the last evaluation has left for the next step beside the particles' arrays.
+  void visit_loads(StateVisitor& state);
+  /// That, the particles, and who takes which steps.
+  void visit_state(StateVisitor& state);
 };
 
 /// Speed at which a run has lost its physics: a hundred times what any explosive does [m/s].

@@ -52,4 +52,10 @@ void Signals::describe(PairInput& in, double margin) const {
   in.margin = margin;
 }
 
+void Signals::visit_state(StateVisitor& state) {
+  state("everywhere", everywhere_);
+  state("low", disturbed_.low);
+  state("high", disturbed_.high);
+}
+
 }  // namespace undex::sph

@@ -37,6 +37,7 @@ class Signals {
   /// Is a particle at x left out, when pairs reach that far [m]?
   bool leaves_out(const Vec3& x, double reach) const { return !everywhere_ && !disturbed_.within(x, reach); }
   void describe(PairInput& in, double margin) const;
+  void visit_state(StateVisitor& state);
 
  private:
   bool everywhere_ = true;

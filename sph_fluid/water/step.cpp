@@ -23,7 +23,7 @@ void Fluid::Implementation::step_or_stay(Step step) {
   all.particles.keep_start();
   try {
     step();
-  } catch (const NumericalStop&) {
+  } catch (const NumericalStop& stop) {
     all.particles.restore_start();
     cross_mirrors(all);
     exchange = booked;
@@ -31,7 +31,7 @@ void Fluid::Implementation::step_or_stay(Step step) {
     walls.set_impulses(impulses);
     if (local_steps.parted()) local_steps.join();
     evaluation.rest(all, clock.time);
-    throw;
+    throw NumericalStop(stop.what(), /*resumable=*/true);
   }
 }
 

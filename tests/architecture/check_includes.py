@@ -60,6 +60,7 @@ LIBRARY_OWNERS = {
     "H5": ["output"],
     "toml++/": ["scene"],
     "CLI/": ["app"],
+    "xxhash.h": ["output"],
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)

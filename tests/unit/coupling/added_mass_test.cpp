@@ -49,6 +49,7 @@ class RigidPlate : public DeformableBody {
     }
     time_ = t_end;
   }
+  void visit_state(StateVisitor&) override {}
   BodyLedger ledger() const override {
     BodyLedger ledger;
     ledger.received = work_;

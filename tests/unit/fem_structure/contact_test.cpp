@@ -82,7 +82,8 @@ TEST(Contact, BodyBeyondThePlaneIsRefused) {
   EXPECT_THROW(Structure{settings}, std::invalid_argument);
 }
 
-/// The largest change of kinetic, stored and spent energy [-] over 60 steps of `settings`, over `scale` [J] or what loads have done.
+/// The largest change of kinetic, stored and spent energy [-] over 60 steps of `settings`, over `scale` [J] or what loads have
+/// done.
 double worst_energy(const Settings& settings, double scale = 0) {
   Structure body(settings);
   const auto all = [&] {
@@ -104,8 +105,10 @@ Settings struck_bar(int n) {
   materials::Solid aluminium = elastic(2700.0, 71e9, 0.33);
   aluminium.pressure = materials::MieGruneisenPressure{.C = 5350, .S = 1.34, .Gamma = 2.0};
   Settings bar = plate(Vec3(0, 0, 0), Vec3(2.5e-4, 2.5e-4, n * 2.5e-4), {1, 1, n}, aluminium);
-  bar.supports = {{"x_low", {true, false, false}}, {"x_high", {true, false, false}},
-                  {"y_low", {false, true, false}}, {"y_high", {false, true, false}}};
+  bar.supports = {{"x_low", {true, false, false}},
+                  {"x_high", {true, false, false}},
+                  {"y_low", {false, true, false}},
+                  {"y_high", {false, true, false}}};
   return bar;
 }
 

@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <random>
+#include <sstream>
 
 #include "bodies.hpp"
+#include "core/gmsh_file.hpp"
 
 namespace undex::fem::testing {
 namespace {
@@ -253,6 +256,38 @@ TEST(Meshes, GmshMistakesAreNamed) {
   const std::string garbage = (std::filesystem::path(::testing::TempDir()) / "garbage.msh").string();
   std::ofstream(garbage) << "this is no mesh\n";
   EXPECT_NE(message(garbage).find("not a hexahedral gmsh mesh"), std::string::npos) << message(garbage);
+}
+
+/// Whatever is done to the numbers of a file, it is refused or its mesh can be built.
+TEST(Meshes, ChangedGmshFilesAreRefusedOrBuilt) {
+  std::ifstream file(two_cubes("sound.msh"));
+  std::ostringstream whole;
+  whole << file.rdbuf();
+  const std::string sound = whole.str();
+  const std::vector<std::string> values{"0", "1", "2", "3", "6", "9", "12", "-1", "0.9", "1.5", "0.5", "1e300", "nan", "77"};
+  std::mt19937 random(11);
+  int built = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::string text = sound;
+    for (int k = 0; k < 1 + i % 3; ++k) {
+      const std::size_t at = text.find_first_of(" \n", random() % (text.size() - 20));
+      text.replace(at + 1, text.find_first_of(" \n", at + 1) - at - 1, values[random() % values.size()]);
+    }
+    Settings settings;
+    try {
+      settings.mesh = GmshMesh{"changed.msh", std::make_shared<const HexahedralMesh>(parse_gmsh(text, "changed.msh"))};
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    settings.material = elastic(1000, 1e9, 0.3);
+    try {
+      EXPECT_GT(Structure(settings).ledger().mass, 0.0) << text;
+      ++built;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("is inverted or flat"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(built, 50);
 }
 
 TEST(Meshes, LocateFindsPointsInsideAndOutside) {

@@ -1,7 +1,10 @@
 #include "output/history.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "core/errors.hpp"
@@ -43,6 +46,53 @@ TEST(History, IsReadBackAsSeries) {
   const Series& velocity = columns[1].series;
   EXPECT_EQ(velocity.t, (std::vector<double>{1e-6, 2e-6}));
   EXPECT_EQ(velocity.y, (std::vector<double>{-3.0, -4.0}));
+}
+
+TEST(History, OnlyWholeRowsReachTheFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "a.csv";
+  History history(path, {{"time", "s"}, {"x", "m"}});
+  const std::string header = read_text(path);
+  for (int row = 1; row <= 20000; ++row) history.append({row * 1e-7, row * -1.23456789e-5});
+  EXPECT_EQ(read_text(path), header) << "no part of a row before all of them";
+  history.flush();
+  EXPECT_EQ(read_history(path).front().series.t.size(), 20000u);
+}
+
+TEST(History, AFullDiskLeavesWholeRows) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "a.csv";
+  History history(path, {{"time", "s"}, {"x", "m"}});
+  struct rlimit before {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const struct rlimit little { 1000, before.rlim_max };
+  setrlimit(RLIMIT_FSIZE, &little);
+  for (int row = 0; row < 100; ++row) history.append({row * 1e-7, -1.23456789e-5});
+  EXPECT_THROW(history.flush(), FileError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  const std::string text = read_text(path);
+  EXPECT_GT(text.size(), 950u);
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(read_history(path).front().series.y.back(), -1.23456789e-5);
+}
+
+TEST(History, ARowThatIsCutOffIsLeftOut) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / "a.csv";
+  const std::string whole = "time [s],x [m]\n1,2.5\n2,3.5\n";
+  for (std::size_t length = whole.find("2,3.5"); length < whole.size(); ++length) {
+    std::ofstream(path) << whole.substr(0, length);
+    EXPECT_EQ(read_history(path, true).front().series.y, std::vector<double>{2.5}) << length;
+  }
+  std::ofstream(path) << whole.substr(0, whole.size() - 1);
+  EXPECT_EQ(read_history(path).front().series.y, (std::vector<double>{2.5, 3.5})) << "somebody's own table may end so";
+}
+
+TEST(History, APipeInItsPlaceIsAnError) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder.path / "a.csv").c_str(), 0600), 0);
+  EXPECT_THROW(History(folder.path / "a.csv", {{"time", "s"}}), FileError);
 }
 
 TEST(History, WrongUseIsOurDefect) {

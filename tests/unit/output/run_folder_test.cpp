@@ -1,8 +1,10 @@
 #include "output/run_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <set>
 
 #include "core/errors.hpp"
 #include "output/history.hpp"
@@ -80,6 +82,88 @@ TEST(RunFolder, EveryMistakeAtOnce) {
   EXPECT_NE(message.find("summary.json: not the summary of a run"), std::string::npos) << message;
   EXPECT_NE(message.find("energy.csv:3"), std::string::npos) << message;
   EXPECT_NE(message.find("wall.csv: its times go back"), std::string::npos) << message;
+}
+
+/// Names of everything in a folder and below it; a link is not followed.
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (!entry.is_directory() || entry.is_symlink()) names.insert(entry.path().lexically_relative(folder).string());
+  return names;
+}
+
+void touch(const std::filesystem::path& path, const std::string& text = "x") {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+}
+
+TEST(RunFolder, ANewRunStandsAlone) {
+  const TemporaryFolder here;
+  const auto folder = here.path / "run";
+  fill(folder);
+  for (const char* name : {"scene.toml",
+                           "evidence.h5",
+                           "checkpoint.h5",
+                           "checkpoint_00012.h5",
+                           "profile.csv",
+                           "profile_exact.csv",
+                           "comparison.csv",
+                           "curves.csv",
+                           "outcome.json",
+                           ".energy.csv.123.part",
+                           "fields/particles.h5part",
+                           "fields/solids.h5part",
+                           "fields/solids2.h5part",
+                           "fields/structure_00000.hdf",
+                           "fields/structure2_00007.hdf",
+                           "fields/structure.hdf.series",
+                           "fields/structure2.hdf.series",
+                           "pictures/energy.png",
+                           "pictures/solids_speed.png",
+                           "history/empty.csv"})
+    touch(folder / name, std::string(name) == "history/empty.csv" ? "" : "x");
+  const std::set<std::string> mine{"thesis.txt",        "log.txt",          "history/notes.txt",
+                                   "history/table.csv", "fields/mine.pvsm", "pictures/mine.png",
+                                   "sub/energy.csv",    "energy.csv.bak",   "fields/solids_my.h5part"};
+  for (const std::string& name : mine) touch(folder / name, "number,name\n");
+  begin_run_folder(folder, "given", "resolved");
+  std::set<std::string> expected = mine;
+  expected.insert({"scene.toml", "resolved.toml"});
+  EXPECT_EQ(names_in(folder), expected);
+  EXPECT_EQ(read_text(folder / "scene.toml"), "given");
+  EXPECT_EQ(read_text(folder / "resolved.toml"), "resolved");
+}
+
+TEST(RunFolder, ANewRunFollowsNoLink) {
+  const TemporaryFolder here;
+  const auto folder = here.path / "run", other = here.path / "other";
+  for (const char* name : {"fields/particles.h5part", "history/wall.csv", "energy.csv"}) touch(other / name);
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"fields", "history", "energy.csv"}) std::filesystem::create_symlink(other / name, folder / name);
+  std::filesystem::create_symlink(here.path / "nowhere", folder / "pictures");
+  begin_run_folder(folder, "", "");
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{"scene.toml", "resolved.toml"}));
+  EXPECT_EQ(names_in(other), (std::set<std::string>{"fields/particles.h5part", "history/wall.csv", "energy.csv"}));
+}
+
+TEST(RunFolder, WhatIsNoFileStandsInTheWay) {
+  for (const char* name : {"summary.json", "energy.csv", "evidence.h5", "history/wall.csv", "fields/particles.h5part"}) {
+    for (const bool pipe : {false, true}) {
+      const TemporaryFolder here;
+      fill(here.path);
+      std::filesystem::remove(here.path / name);
+      std::filesystem::create_directories((here.path / name).parent_path());
+      if (pipe) ASSERT_EQ(mkfifo((here.path / name).c_str(), 0600), 0);
+      else std::filesystem::create_directories(here.path / name);
+      const std::set<std::string> before = names_in(here.path);
+      const std::string message = message_of<UsageError>([&] { begin_run_folder(here.path, "", ""); });
+      EXPECT_NE(message.find((here.path / name).string() + " is no file"), std::string::npos) << message;
+      EXPECT_EQ(names_in(here.path), before) << "nothing is lost";
+    }
+  }
+  const TemporaryFolder here;
+  touch(here.path / "history");
+  EXPECT_NE(message_of<UsageError>([&] { begin_run_folder(here.path, "", ""); }).find("is no folder"), std::string::npos);
 }
 
 TEST(RunFolder, SummariesOfOtherProgramsAreReadAsFarAsTheyGo) {

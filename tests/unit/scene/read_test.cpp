@@ -184,9 +184,10 @@ TEST(Read, OtherStructures) {
   EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{20, 40, 4}));
   EXPECT_EQ(plate.structure->loads[0].pressure[0], 1e6);
   const Scratch scratch;
-  scratch.write("$MeshFormat\n", "mesh.msh");
+  std::filesystem::copy_file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh", scratch.folder() / "mesh.msh");
   const Scene gmsh = read(scratch.write(frame + "shape = {type = \"gmsh\", path = \"mesh.msh\"}\n"));
   EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).path, scratch.folder() / "mesh.msh");
+  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).read->cells.size(), 2u);
 }
 
 TEST(Read, ShellsAreOneCellThick) {

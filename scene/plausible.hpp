@@ -1,0 +1,15 @@
+// Numbers of materials that are in range each by itself, and yet cannot be what was meant: other units, sets that contradict
+// themselves.
+#pragma once
+
+#include "materials/equation_of_state.hpp"
+#include "materials/solid.hpp"
+#include "scene/table_reader.hpp"
+
+namespace undex::scene {
+
+/// Complains of what cannot be; `warnings` gets what can, and is unlikely.
+void expect_plausible(const TableReader& table, const materials::FluidLaw& law, Report& warnings);
+void expect_plausible(const TableReader& table, const materials::Solid& solid, Report& warnings);
+
+}  // namespace undex::scene

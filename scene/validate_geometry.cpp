@@ -1,0 +1,128 @@
+// Geometry of bodies, solids and walls: extents, subtractions, overlaps, containers.
+#include "scene/validator.hpp"
+
+namespace undex::scene {
+
+/// Checks of one body or solid by itself; returns whether its geometry can be compared with others'.
+bool Validator::part(const Part& one) {
+  if (!one.shape_good) return false;
+  const Shape& shape = *one.shape;
+  const Node& node = *one.node;
+  const std::string path = one.path();
+  const Bounds extent = bounds(shape, dimension_);
+  for (int a = 0; a < dimension_; ++a) {
+    if (!(extent.high[a] - extent.low[a] < 1e200)) {
+      complain(node, "shape", path + " has no end along " + "xyz"[a] + "; take a box instead of a slab");
+      return false;
+    }
+    if (fluid_.symmetry.axis[a] && extent.high[a] <= 0) {
+      complain(node, "shape",
+               path + " lies wholly at " + "xyz"[a] +
+                   " <= 0, in the part that the symmetry plane leaves out; "
+                   "move it to the other side");
+      return false;
+    }
+  }
+  if (draft_.spacing_good || one.spacing) {
+    const double spacing = one.spacing.value_or(fluid_.lattice.spacing);
+    const double thinnest = thickness(shape.base, dimension_);
+    if (thinnest < spacing)
+      complain(node, one.spacing ? "spacing" : "shape",
+               path + " is " + rounded(thinnest) + " m at its thinnest, less than the spacing " + rounded(spacing) +
+                   " m; make the spacing smaller or the body larger");
+  }
+  const Bounds window = common(kept_, extent);
+  const Shape base{shape.base, {}};
+  for (std::size_t k = 0; k < shape.removed.size(); ++k) {
+    const Shape removed{shape.removed[k], {}};
+    if (!find_in_both(inside(base, dimension_), inside(removed, dimension_), window, 0, dimension_))
+      complain(node, "subtract",
+               path + ".subtract: the shape number " + std::to_string(k) +
+                   " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
+  }
+  const Depth within = inside(shape, dimension_);
+  if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
+    complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller");
+    return false;
+  }
+  return true;
+}
+
+void Validator::overlaps() {
+  for (std::size_t j = 0; j < parts_.size(); ++j) {
+    if (!usable_[j]) continue;
+    const Part& later = parts_[j];
+    const Bounds extent = common(kept_, bounds(*later.shape, dimension_));
+    for (std::size_t i = 0; i < j; ++i) {
+      if (!usable_[i]) continue;
+      const Part& first = parts_[i];
+      const Bounds window = common(extent, bounds(*first.shape, dimension_));
+      if (const auto at =
+              find_in_both(inside(*first.shape, dimension_), inside(*later.shape, dimension_), window, tolerance(), dimension_))
+        complain(*later.node, "shape",
+                 later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
+                     " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
+    }
+    if (!solid_ || dimension_ != 3) continue;
+    const Depth in_structure = [&](const Vec3& x) { return -solid_->signed_distance(x); };
+    const Bounds window = common(extent, solid_->extent());
+    if (const auto at = find_in_both(in_structure, inside(*later.shape, 3), window, tolerance(), 3))
+      complain(*later.node, "shape",
+               later.path() + " overlaps the structure, e.g. at " + text(*at, 3) +
+                   " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");
+  }
+}
+
+namespace {
+
+/// The container, without end where its faces are open.
+Primitive opened(const sph::Wall& wall) {
+  const auto open = [&](const std::string& face) {
+    const auto found = wall.faces.find(face);
+    return found != wall.faces.end() && found->second == sph::FaceCondition::open;
+  };
+  constexpr double far = 1e6;
+  if (const auto* box = std::get_if<Box>(&wall.container)) {
+    Box larger = *box;
+    for (int a = 0; a < 3; ++a) {
+      if (open(std::string(1, "xyz"[a]) + "_low")) larger.low[a] = -far;
+      if (open(std::string(1, "xyz"[a]) + "_high")) larger.high[a] = far;
+    }
+    return larger;
+  }
+  Cylinder larger = std::get<Cylinder>(wall.container);
+  if (open("side")) larger.radius = far;
+  if (open("low")) larger.low = -far;
+  if (open("high")) larger.high = far;
+  return larger;
+}
+
+}  // namespace
+
+void Validator::walls() {
+  for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
+    if (!draft_.wall_shape_good[w]) return;
+  if (fluid_.walls.empty()) return;
+  for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) {
+    if (!usable_[i]) continue;
+    const sph::Body& body = fluid_.bodies[i];
+    const Bounds window = common(kept_, bounds(body.shape, dimension_));
+    std::optional<Vec3> out;
+    bool contained = false;
+    for (const sph::Wall& wall : fluid_.walls) {
+      const Shape container{opened(wall), {}};
+      const auto at =
+          find_in_both(inside(body.shape, dimension_), outside(container, dimension_), window, tolerance(), dimension_);
+      if (!at) contained = true;
+      else if (!out) out = at;
+    }
+    if (contained) continue;
+    std::vector<std::string> containers;
+    for (const sph::Wall& wall : fluid_.walls) containers.push_back("'" + wall.name + "'");
+    complain(*draft_.body_nodes[i], "shape",
+             "bodies." + body.name + " reaches outside the wall " + listed(containers) + ", e.g. at " + text(*out, dimension_) +
+                 " m; make it smaller or the wall larger");
+  }
+}
+
+}  // namespace undex::scene

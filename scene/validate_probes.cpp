@@ -1,0 +1,70 @@
+// Probes in nowhere.
+#include "scene/validator.hpp"
+
+namespace undex::scene {
+
+double Validator::distance_to_solids(const Vec3& x) const {
+  double away = 1e300;
+  for (const solid::Body& solid : scene_.solids.bodies) away = std::min(away, signed_distance(solid.shape, x, dimension_));
+  return away;
+}
+
+void Validator::probe(const Probe& probe, const Node& node) {
+  const std::string path = "probes." + probe.name;
+  for (int a = 0; a < dimension_; ++a)
+    if (fluid_.symmetry.axis[a] && probe.point[a] < -1e-9) {
+      complain(node, "point",
+               path + ".point lies at " + "xyz"[a] + " < 0, in the part that the symmetry plane leaves out; mirror it");
+      return;
+    }
+  if (probe.kind == Probe::Kind::structure) {
+    if (!draft_.structure_node && draft_.solid_nodes.empty()) {
+      complain(node, "kind",
+               path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
+    } else if (!draft_.solid_nodes.empty() && all_usable()) {
+      double thinnest = 1e300;
+      for (const solid::Body& solid : scene_.solids.bodies)
+        thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
+      if (const double away = distance_to_solids(probe.point); away > 0.1 * thinnest)
+        complain(node, "point", path + ".point is " + rounded(away) + " m away from every solid; move it onto one");
+    } else if (solid_ && dimension_ == 3) {
+      const double away = solid_->signed_distance(probe.point);
+      if (away > 0.1 * solid_->thickness())
+        complain(node, "point", path + ".point is " + rounded(away) + " m away from the structure; move it onto it");
+    }
+    return;
+  }
+  if (draft_.body_nodes.empty()) {
+    complain(node, "kind", path + " reads the fluid, but the scene has no [[bodies]]; add the fluid or change kind");
+    return;
+  }
+  if (!draft_.spacing_good || !all_usable()) return;
+  for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
+    if (!draft_.wall_shape_good[w]) return;
+  if (probe.kind == Probe::Kind::wall) {
+    const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
+    if (fluid_.walls.empty() && !wet && scene_.solids.bodies.empty()) {
+      complain(
+          node, "kind",
+          path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");
+      return;
+    }
+    double away = 1e300;
+    for (const sph::Wall& wall : fluid_.walls)
+      away = std::min(away, std::abs(signed_distance(wall.container, probe.point, dimension_)));
+    if (solid_ && dimension_ == 3) away = std::min(away, std::abs(solid_->signed_distance(probe.point)));
+    away = std::min(away, std::abs(distance_to_solids(probe.point)));
+    if (away > near())
+      complain(node, "point",
+               path + ".point is " + rounded(away) + " m away from every wall, more than two spacings; move it to the wall");
+    return;
+  }
+  double away = 1e300;
+  for (const sph::Body& body : fluid_.bodies) away = std::min(away, signed_distance(body.shape, probe.point, dimension_));
+  for (const sph::Wall& wall : fluid_.walls) away = std::min(away, signed_distance(wall.container, probe.point, dimension_));
+  if (away > near())
+    complain(node, "point",
+             path + ".point lies outside everything: " + rounded(away) + " m from the nearest fluid or wall; move it");
+}
+
+}  // namespace undex::scene

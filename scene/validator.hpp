@@ -1,0 +1,105 @@
+// The checks of one scene against itself. Each group of them is a file, validate_*.cpp; validate.cpp calls them in turn.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/draft.hpp"
+#include "scene/faces.hpp"
+#include "scene/geometry.hpp"
+#include "scene/numbers.hpp"
+#include "scene/structure_shape.hpp"
+#include "scene/suggestion.hpp"
+
+namespace undex::scene {
+
+/// A place in a message: "[0.1, 0.2]".
+std::string text(const Vec3& x, int dimension);
+
+class Validator {
+ public:
+  explicit Validator(Draft& draft);
+  void run();
+
+ private:
+  /// A body of fluid or a solid in particles: geometry treats them alike. The bodies come first.
+  struct Part {
+    std::string list, name;
+    const Shape* shape;
+    std::optional<double> spacing;
+    const Node* node;
+    bool shape_good;
+
+    std::string path() const { return list + '.' + name; }
+  };
+
+  // validate.cpp
+  void names();
+  void parts();
+  void collect();
+  void complain(const Node& node, const char* key, const std::string& message);
+  void warn(const Node& node, const char* key, const std::string& message);
+  bool all_usable() const;
+  bool is_fluid(std::size_t part) const { return part < fluid_.bodies.size(); }
+  /// Overlaps and gaps below this count as none.
+  double tolerance() const;
+  double near() const { return 2 * fluid_.lattice.spacing; }
+  /// To the nearest body of fluid [m].
+  double distance_to_water(const Vec3& x) const;
+  bool in_kept_part(const Vec3& x) const;
+
+  // validate_lattice.cpp
+  void gravity();
+  void lattice();
+
+  // validate_geometry.cpp
+  /// Checks of one body or solid by itself; returns whether its geometry can be compared with others'.
+  bool part(const Part& one);
+  void overlaps();
+  void walls();
+
+  // validate_structure.cpp
+  void structure();
+  void pieces();
+  void wet_face(const std::string& path, const Node& node, const std::vector<Vec3>& points, const std::string& face);
+  void solids();
+  void planes();
+  void halved(const std::string& path, const Node& node, const Primitive& shape);
+
+  // validate_symmetry.cpp
+  void mirrors();
+  void mirrored(const Part& one, bool fluid, const sph::Body* body);
+  void mirrored_structure();
+  void mirrored_burn(const sph::Body& body, const Node& node);
+
+  // validate_sizes.cpp
+  void sizes();
+  void size_of_structure(double of_bodies);
+  void size_of_walls(double of_bodies);
+  void counts();
+
+  // validate_times.cpp
+  void times();
+  void start_time();
+
+  // validate_thin_walls.cpp
+  void thin_walls();
+
+  // validate_probes.cpp
+  double distance_to_solids(const Vec3& x) const;
+  void probe(const Probe& probe, const Node& node);
+
+  Draft& draft_;
+  Scene& scene_;
+  sph::Settings& fluid_;
+  int dimension_;
+  Bounds kept_;
+  std::optional<StructureShape> solid_;  // of the [structure]
+  std::vector<Part> parts_;
+  std::vector<bool> usable_;  // beside parts_: can it be compared with others?
+};
+
+}  // namespace undex::scene

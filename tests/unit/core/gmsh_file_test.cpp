@@ -1,0 +1,294 @@
+// Mesh files of gmsh: what is read, and that everything else is refused with its place.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/gmsh_file.hpp"
+
+namespace undex {
+namespace {
+
+/// Two unit cubes side by side along x; faces at x = 0 and x = 2 are of the groups 7 and 8.
+const std::string cubes_2 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+2 7 "wet side"
+$EndPhysicalNames
+$Nodes
+12
+1 0 0 0
+2 0 1 0
+3 0 1 1
+4 0 0 1
+5 1 0 0
+6 1 1 0
+7 1 1 1
+8 1 0 1
+9 2 0 0
+10 2 1 0
+11 2 1 1
+12 2 0 1
+$EndNodes
+$Elements
+4
+1 3 2 7 7 1 2 3 4
+2 3 2 8 8 9 10 11 12
+3 5 2 1 1 1 5 6 2 4 8 7 3
+4 5 2 1 1 5 9 10 6 8 12 11 7
+$EndElements
+)";
+const std::string cubes_4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+1 1 2 1
+1 0 0 0 0
+3 0 0 0 1 0 0 0 2 1 -1
+7 0 0 0 0 1 1 1 7 0
+8 2 0 0 2 1 1 1 -8 0
+1 0 0 0 2 1 1 1 1 2 7 8
+$EndEntities
+$Nodes
+2 12 1 40
+2 7 1 4
+1
+2
+3
+40
+0 0 0 0 0
+0 1 0 1 0
+0 1 1 1 1
+0 0 1 0 1
+3 1 0 8
+5
+6
+7
+8
+9
+10
+11
+12
+1 0 0
+1 1 0
+1 1 1
+1 0 1
+2 0 0
+2 1 0
+2 1 1
+2 0 1
+$EndNodes
+$Elements
+5 6 1 6
+0 1 15 1
+1 1
+1 3 1 1
+2 1 5
+2 7 3 1
+3 1 2 3 40
+2 8 3 1
+4 9 10 11 12
+3 1 5 2
+5 1 5 6 2 40 8 7 3
+6 5 9 10 6 8 12 11 7
+$EndElements
+)";
+
+/// The mistake found, or nothing.
+std::string mistake(const std::string& text) {
+  try {
+    parse_gmsh(text, "m.msh");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), replacement);
+}
+
+void expect(const std::string& text, const std::string& expected) {
+  const std::string found = mistake(text);
+  EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "\nexpected:\n" << expected;
+}
+
+double volume(const HexahedralMesh& mesh) {  // of cells with plane faces at right angles
+  double sum = 0;
+  for (const auto& cell : mesh.cells) sum += std::abs(corner_volumes(mesh.nodes, cell)[0]);
+  return sum;
+}
+
+TEST(GmshFile, BothFormatsGiveTheSameMesh) {
+  const HexahedralMesh two = parse_gmsh(cubes_2, "m.msh"), four = parse_gmsh(cubes_4, "m.msh");
+  for (const HexahedralMesh& mesh : {two, four}) {
+    ASSERT_EQ(mesh.nodes.size(), 12u);
+    ASSERT_EQ(mesh.cells.size(), 2u);
+    EXPECT_EQ(mesh.nodes[4], Vec3(1, 0, 0));
+    EXPECT_EQ(mesh.cells[1], (std::array<int, 8>{4, 8, 9, 5, 7, 11, 10, 6}));
+    EXPECT_DOUBLE_EQ(volume(mesh), 2.0);
+    EXPECT_EQ(mesh.faces.size(), 10u);
+    int named = 0;
+    for (const auto& face : mesh.faces) {
+      const double x = mesh.nodes[face.nodes[0]][0];
+      if (face.id != 0) ++named;
+      EXPECT_EQ(x, face.id == 7 ? 0.0 : face.id == 8 ? 2.0 : x);
+    }
+    EXPECT_EQ(named, 2);
+  }
+  EXPECT_EQ(two.cells, four.cells);
+  EXPECT_EQ(two.nodes, four.nodes);
+}
+
+TEST(GmshFile, EndingsOfWindowsUnusedNodesAndMirroredCellsAreRead) {
+  std::string windows;
+  for (const char c : cubes_2) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  EXPECT_EQ(mistake(windows), "");
+  const HexahedralMesh loose = parse_gmsh(with(with(cubes_2, "\n12\n", "\n13\n"), "\n5 1 0 0", "\n99 9 9 9\n5 1 0 0"), "m.msh");
+  EXPECT_EQ(loose.nodes.size(), 12u);
+  const HexahedralMesh mirrored = parse_gmsh(with(cubes_2, "1 5 6 2 4 8 7 3", "4 8 7 3 1 5 6 2"), "m.msh");
+  EXPECT_DOUBLE_EQ(volume(mirrored), 2.0);
+}
+
+TEST(GmshFile, MistakesNameFileAndLine) {
+  expect("", "m.msh:0: this is not a hexahedral gmsh mesh");
+  expect("this is no mesh\n", "m.msh:1: this is not a hexahedral gmsh mesh");
+  expect(with(cubes_2, "2.2 0 8", "2.2 1 8"), "m.msh:2: the mesh is binary; save it again as ASCII");
+  expect(with(cubes_2, "2.2 0 8", "4.0 0 8"), "m.msh:2: version 4.0 of gmsh's format is not read");
+  expect(with(cubes_2, "2.2 0 8", "4.1 0 8"), "m.msh:9: $Nodes: its first line");  // a header of 4.1 over 2.2
+  expect(with(cubes_4, "4.1 0 8", "2.2 0 8"), "m.msh:13: $Nodes: the count of nodes needs 1 numbers");
+  expect(with(cubes_2, "\n12\n", "\n13\n"), "m.msh:22: $Nodes: a node (tag, x, y, z) needs 4 numbers on a line, here are 1");
+  expect(with(cubes_2, "\n12\n", "\n11\n"), "m.msh:21: $Nodes: here should be $EndNodes, not '12'");
+  expect(with(cubes_2, "\n12\n", "\n999999999999\n"), "the count of nodes = 999999999999 is out of range");
+  expect(with(cubes_2, "\n3 0 1 1", "\n2 0 1 1"), "m.msh:12: the node 2 is there twice");
+  expect(with(cubes_2, "\n3 0 1 1", "\n3 0 nan 1"), "m.msh:12: a coordinate must be a finite number, not 'nan'");
+  expect(with(cubes_2, "\n3 0 1 1", "\n3 0 1e999 1"), "m.msh:12: a coordinate must be a finite number");
+  expect(with(cubes_2, "\n3 0 1 1", "\n3 0 1e7 1"),
+         "m.msh:12: a coordinate of 1e7 is out of range, -1e5 to 1e5 m; is the mesh in");
+  expect(with(cubes_2, "\n3 0 1 1", "\n3 0 1"), "m.msh:12: $Nodes: a node (tag, x, y, z) needs 4 numbers on a line, here are 3");
+  expect(with(cubes_2, "8 9 10 11 12", "8 9 10 11 13"), "m.msh:26: an element names the node 13, which $Nodes does not have");
+  expect(with(cubes_2, "1 5 6 2 4 8 7 3", "1 5 6 2 4 8 7 7"), "m.msh:27: a hexahedron has the node 7 twice; it is collapsed");
+  expect(with(cubes_2, "1 5 6 2 4 8 7 3", "1 5 2 6 4 8 7 3"), "m.msh:27: the hexahedron near (0, 0, 0) m is inverted or flat");
+  expect(with(cubes_2, "\n3 0 1 1", "\n3 2 1 1"), "m.msh:27: the hexahedron near");
+  expect(with(cubes_2, "3 5 2 1 1 1 5 6 2 4 8 7 3", "3 4 2 1 1 1 5 6 2"),
+         "m.msh:27: a tetrahedron: the mesh must hold hexahedra only");
+  expect(with(cubes_2, "3 5 2 1 1 1", "3 17 2 1 1 1"), "m.msh:27: elements of type 17 are not read");
+  expect(with(cubes_2, "\n4\n1 3 2", "\n2\n1 3 2"), "m.msh:27: $Elements: here should be $EndElements, not '3'");
+  expect(with(cubes_2, "\n4 5 2 1 1 5", "\n3 5 2 1 1 5"), "m.msh:28: the element 3 is there twice");
+  expect(with(cubes_2, "2 3 2 8 8 9 10 11 12", "2 3 2 8 8 5 6 7 8"), "m.msh:26: the quadrangle of group 8 lies inside the mesh");
+  expect(with(cubes_2, "2 3 2 8 8 9 10 11 12", "2 3 2 8 8 9 11 10 12"), "m.msh:26: the quadrangle is a face of no hexahedron");
+  expect(with(cubes_2, "2 3 2 8 8 9 10 11 12", "2 3 2 8 8 1 2 3 4"), "m.msh:26: the face belongs to the groups 7 and 8");
+  expect(with(cubes_2, "\n$EndNodes", "\n13 1 0 0\n$EndNodes"), "m.msh:22: $Nodes: here should be $EndNodes, not '13'");
+  expect(with(cubes_4, "2 12 1 40", "2 13 1 40"), "m.msh:13: $Nodes says 13 in all, but its blocks hold 12");
+  expect(with(cubes_4, "2 12 1 40", "2 12 1 12"), "m.msh:18: a node's tag 40 lies outside the range 1 to 12 said in line 13");
+  expect(with(cubes_4, "2 8 3 1", "2 9 3 1"), "$Entities has no entity 9 of dimension 2");
+  expect(with(cubes_4, "3 1 5 2\n", "2 7 5 2\n"), "a hexahedron in an entity of dimension 2");
+  expect(with(cubes_4, "1 1 1 7 0", "1 1 2 7 8 0"), "m.msh:8: the surface 7 belongs to 2 physical groups");
+  expect(with(cubes_4, "1 2 7 8\n", "1 3 7 8\n"), "m.msh:10: an entity of dimension 3 has too few numbers");
+}
+
+/// A second cube's own nodes at x = 1: the mesh is torn there.
+TEST(GmshFile, TornAndOverlappingMeshesAreRefused) {
+  std::string torn = with(cubes_2, "\n12\n", "\n16\n");
+  torn = with(torn, "\n$EndNodes", "\n15 1 0 0\n16 1 1 0\n17 1 1 1\n18 1 0 1\n$EndNodes");
+  torn = with(torn, "4 5 2 1 1 5 9 10 6 8 12 11 7", "4 5 2 1 1 15 9 10 16 18 12 11 17");
+  expect(torn, "m.msh:22: the nodes 5 and 15 lie at one place, (1, 0, 0) m, so that the mesh is torn there");
+  std::string folded = cubes_2;  // the second cube folds back over the first
+  for (const char* node : {"\n9 2 0 0", "\n10 2 1 0", "\n11 2 1 1", "\n12 2 0 1"})
+    folded = with(folded, node, with(node, " 2 ", " 0.5 "));
+  expect(folded, "m.msh:28: this hexahedron overlaps that of line 27");
+}
+
+/// Distances by hand: beside a face, an edge, a corner, and inside.
+TEST(GmshFile, DistanceToTheMesh) {
+  const MeshDistance mesh(std::make_shared<const HexahedralMesh>(parse_gmsh(cubes_2, "m.msh")));
+  EXPECT_NEAR(mesh.signed_distance({1.0, 0.5, 1.25}), 0.25, 1e-15);
+  EXPECT_NEAR(mesh.signed_distance({2.3, 1.4, 0.3}), 0.5, 1e-15);
+  EXPECT_NEAR(mesh.signed_distance({-1, -2, -2}), 3.0, 1e-15);
+  EXPECT_NEAR(mesh.signed_distance({1.0, 0.5, 0.5}), -0.5, 1e-15);  // the face between the cubes is none
+  EXPECT_NEAR(mesh.signed_distance({1.9, 0.5, 0.6}), -0.1, 1e-15);
+}
+
+TEST(GmshFile, PiecesAreCounted) {
+  HexahedralMesh mesh = parse_gmsh(cubes_2, "m.msh");
+  EXPECT_EQ(pieces(mesh, JoinedBy::faces), (std::vector<int>{0, 0}));
+  const int own = int(mesh.nodes.size());
+  for (int k = 0; k < 8; ++k) {  // a third cube that shares the edge at x = 2, y = 1
+    const Vec3 x(2 + (k & 1), 1 + (k >> 1 & 1), k >> 2);
+    mesh.nodes.push_back(x);
+  }
+  mesh.cells.push_back({9, own + 1, own + 3, own + 2, 10, own + 5, own + 7, own + 6});
+  EXPECT_EQ(pieces(mesh, JoinedBy::faces), (std::vector<int>{0, 0, 1}));
+  EXPECT_EQ(pieces(mesh, JoinedBy::nodes), (std::vector<int>{0, 0, 0}));
+}
+
+/// Every cut of the file is refused with its place, unless nothing but the last end of line is missing.
+TEST(GmshFile, EveryCutIsRefused) {
+  for (const std::string& whole : {cubes_2, cubes_4})
+    for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+      const std::string found = mistake(whole.substr(0, length));
+      EXPECT_TRUE(found.starts_with("m.msh:")) << "cut at " << length << ": " << found;
+    }
+}
+
+/// What is read in spite of a changed number is a mesh of sound cells.
+TEST(GmshFile, ChangedNumbersAreRefusedOrGiveSoundCells) {
+  std::mt19937 random(7);
+  const std::vector<std::string> values{"0",
+                                        "1",
+                                        "2",
+                                        "3",
+                                        "5",
+                                        "8",
+                                        "-1",
+                                        "13",
+                                        "4",
+                                        "1e300",
+                                        "nan",
+                                        "-0.5",
+                                        "0.999",
+                                        "1.5",
+                                        "99999999999",
+                                        "9223372036854775807",
+                                        "18446744073709551616",
+                                        "x",
+                                        "",
+                                        "$Nodes",
+                                        "2147483648",
+                                        "1 1"};
+  int sound = 0, refused = 0;
+  for (const std::string& whole : {cubes_2, cubes_4})
+    for (int i = 0; i < 4000; ++i) {
+      std::string text = whole;
+      for (int k = 0; k < 1 + i % 2; ++k) {
+        const std::size_t at = text.find_first_of(" \n", random() % text.size());
+        if (at == std::string::npos || at + 1 >= text.size()) continue;
+        const std::size_t end = text.find_first_of(" \n", at + 1);
+        text.replace(at + 1, end - at - 1, values[random() % values.size()]);
+      }
+      try {
+        const HexahedralMesh mesh = parse_gmsh(text, "m.msh");
+        ++sound;
+        for (const auto& cell : mesh.cells) {
+          double least = 1e300, most = -1e300;
+          for (const double corner : corner_volumes(mesh.nodes, cell)) {
+            least = std::min(least, corner);
+            most = std::max(most, corner);
+          }
+          EXPECT_GT(least * most, 0.0) << text;
+        }
+      } catch (const std::invalid_argument& error) {
+        ++refused;
+        EXPECT_TRUE(std::string(error.what()).starts_with("m.msh:")) << error.what();
+      }
+    }
+  EXPECT_GT(sound, 100);
+  EXPECT_GT(refused, 4000);
+}
+
+}  // namespace
+}  // namespace undex

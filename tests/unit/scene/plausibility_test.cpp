@@ -1,0 +1,275 @@
+// Input that is readable and yet not what was meant: units, sizes, counts, mirror images, thin walls, contradictory sets.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "materials/burn.hpp"
+#include "materials/library.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using namespace undex;
+using namespace undex::scene::test;
+
+void refused(const std::string& scene, const std::string& expected, const std::vector<scene::Override>& overrides = {}) {
+  const std::string found = mistakes(scene, overrides);
+  EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "expected:\n" << expected;
+}
+
+std::string warnings(const std::string& scene, const std::vector<scene::Override>& overrides = {}) {
+  std::string all;
+  for (const std::string& warning : read_text(scene, overrides).warnings) all += warning + '\n';
+  return all;
+}
+
+void warned(const std::string& scene, const std::string& expected, const std::vector<scene::Override>& overrides = {}) {
+  const std::string found = warnings(scene, overrides);
+  EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "expected:\n" << expected;
+}
+
+const std::string tnt =
+    R"({law = "jwl", rho0 = 1630, A = 371.2e9, B = 3.231e9, R1 = 4.15, R2 = 0.95, omega = 0.30, E0 = 4.2945e6, D = 6930, p_cj = 21e9})";
+const std::string charge = with(coupled_tube, "material = \"petn\"", "material = " + tnt);
+
+TEST(Plausibility, SoundScenesGiveNoWarning) {
+  EXPECT_EQ(warnings(coupled_tube), "");
+  EXPECT_EQ(warnings(two_gases), "");
+  EXPECT_EQ(warnings(bathed_disc), "");
+  EXPECT_EQ(warnings(charge), "");
+}
+
+/// Published sets detonate as published: TNT (Dobratz) at 6930 m/s and 21 GPa, and every charge of the library.
+TEST(Plausibility, SetsHaveTheirOwnChapmanJouguetState) {
+  const materials::Jwl set(
+      {.rho0 = 1630, .A = 371.2e9, .B = 3.231e9, .R1 = 4.15, .R2 = 0.95, .omega = 0.30, .E0 = 4.2945e6, .D = 6930, .p_cj = 21e9});
+  EXPECT_NEAR(chapman_jouguet(set).detonation_speed, 6930, 0.01 * 6930);
+  EXPECT_NEAR(chapman_jouguet(set).pressure, 21e9, 0.01 * 21e9);
+  int charges = 0;
+  for (const std::string& name : materials::fluid_names()) {
+    const materials::Fluid fluid = *materials::find_fluid(name);
+    const auto* jwl = std::get_if<materials::Jwl>(&fluid.law);
+    if (!jwl) continue;
+    ++charges;
+    const materials::ChapmanJouguet own = chapman_jouguet(*jwl);
+    std::printf("%s: D = %.1f m/s (published %.1f), p_cj = %.3f GPa (published %.3f)\n", name.c_str(), own.detonation_speed,
+                jwl->parameters().D, own.pressure * 1e-9, jwl->parameters().p_cj * 1e-9);
+    EXPECT_NEAR(own.detonation_speed, jwl->parameters().D, 0.01 * jwl->parameters().D) << name;
+    EXPECT_NEAR(own.pressure, jwl->parameters().p_cj, 0.02 * jwl->parameters().p_cj) << name;
+  }
+  EXPECT_GT(charges, 0);
+}
+
+TEST(Plausibility, ContradictorySetsAreToldTheirOwnState) {
+  warned(with(charge, "D = 6930", "D = 5000"), "D = 5000 m/s and p_cj = 21 GPa are not those of the set itself");
+  warned(with(charge, "D = 6930", "D = 5000"), "have their Chapman-Jouguet state at D = 69");
+  warned(with(charge, "p_cj = 21e9", "p_cj = 18e9"), "p_cj = 18 GPa are not those of the set itself");
+  EXPECT_EQ(warnings(with(charge, "D = 6930", "D = 6990")), "");
+  refused(with(charge, "D = 6930", "D = 700"), "D = 700 [m/s] and the rest of the set contradict each other");
+}
+
+TEST(Plausibility, OtherUnitsAreGuessed) {
+  refused(with(charge, "D = 6930", "D = 6.93"),
+          "material.D = 6.93 [m/s] is not that of an explosive, 500 to 20000; is it in km/s? In m/s it would be 6930");
+  refused(with(charge, "rho0 = 1630", "rho0 = 1.63"), "is it in g/cm^3? In kg/m^3 it would be 1630");
+  refused(with(charge, "A = 371.2e9", "A = 371.2"), "is it in GPa? In Pa it would be 3.712e+11");
+  refused(with(charge, "E0 = 4.2945e6", "E0 = 7e9"), "is it per volume, in J/m^3? Per mass it would be 4.29448e+06");
+  refused(with(charge, "p_cj = 21e9", "p_cj = 21"), "is it in GPa? In Pa it would be 2.1e+10");
+  warned(with(coupled_tube, "material = \"water-tait\"", "material = {base = \"water-tait\", rho0 = 1}"), "a liquid of 1 kg/m^3");
+  warned(with(coupled_tube, "material = \"al-5083-h116\"",
+              "material = {rho0 = 2700, young_modulus = 71, poisson_ratio = 0.3, flow = {law = \"elastic\"}}"),
+         "a solid of 2700 kg/m^3 with a sound speed of 0.1");
+}
+
+TEST(Plausibility, NumbersThatCannotBeComputedWithHaveATrueMessage) {
+  const auto solid = [](const std::string& modulus, const std::string& density) {
+    return with(
+        coupled_tube, "material = \"al-5083-h116\"",
+        "material = {rho0 = " + density + ", young_modulus = " + modulus + ", poisson_ratio = 0.3, flow = {law = \"elastic\"}}");
+  };
+  refused(solid("1e300", "2700"), "young_modulus = 1e+300 [Pa] is too large to compute with: it must be at most 1e+30 in size");
+  refused(solid("71e9", "1e-300"), "rho0 = 1e-300 [kg/m^3] is too small to compute with: it must be at least 1e-09");
+  refused(solid("-1", "2700"), "young_modulus = -1 [Pa] must be greater than 0");
+  refused(coupled_tube, "spacing = 5e-324 [m] is too small to compute with", {{"resolution.spacing", "5e-324"}});
+}
+
+TEST(Plausibility, MoltenSolidsAreRefused) {
+  refused(with(coupled_tube, "material = \"al-5083-h116\"", "material = {base = \"al-5083-h116\", T_room = 2000}"),
+          "structure.material.T_room = 2000 [K], the temperature at the start, must lie below the melting point, flow.T_melt = "
+          "893 [K]");
+  EXPECT_EQ(warnings(with(coupled_tube, "material = \"al-5083-h116\"", "material = {base = \"al-5083-h116\", T_room = 800}")),
+            "");
+}
+
+TEST(Plausibility, CountsBeyondNumberAreRefusedAtOnce) {
+  refused(coupled_tube, "bodies.water would get 1.5", {{"resolution.spacing", "1e-6"}}),
+      refused(coupled_tube, "take a larger spacing", {{"resolution.spacing", "1e-6"}});
+  refused(coupled_tube, "takes 4.", {{"end_time", "900"}});
+  refused(coupled_tube, "is it in s? Else take a larger spacing", {{"end_time", "900"}});
+  refused(coupled_tube, "scheme.fixed_step = 1e-20 [s] makes 1e+15 steps", {{"scheme.fixed_step", "1e-20"}});
+  refused(coupled_tube, "output.field_interval = 1e-12 [s] makes 1e+07 snapshots", {{"output.field_interval", "1e-12"}});
+  refused(coupled_tube, "output.history_interval = 1e-20 [s] makes 1e+15 rows", {{"output.history_interval", "1e-20"}});
+}
+
+TEST(Plausibility, MillimetresAreRefused) {
+  const std::string hundred = "shape = {type = \"tube\", inner_radius = 44, outer_radius = 50, low = -100, high = 100}";
+  refused(
+      with(coupled_tube, "shape = {type = \"tube\", inner_radius = 0.044, outer_radius = 0.05, low = -0.1, high = 0.1}", hundred),
+      "structure.shape is 200 m long, 1000 times as long as all bodies together (0.2 m): is the mesh in millimetres?");
+  refused(two_gases + "[[walls]]\nname = \"tank\"\nshape = {type = \"box\", low = 0, high = 600}\n",
+          "walls.tank is 600 m long, 600 times as long as all bodies together (1 m): is it in millimetres?");
+}
+
+TEST(Plausibility, StartTimesBeyondTheObstacleAreRefused) {
+  const std::string spherical = coupled_tube + "[start]\nkind = \"spherical\"\n";
+  refused(spherical, "start.time = 4 [s] must come before end_time", {{"start.time", "4"}});
+  // The edge is 44 mm from the middle: burned by 7.2 mm/8300 m/s, then at 1543 m/s by 23.9 + 0.9 us at the latest.
+  refused(spherical, "alone the wave reaches its edge, 0.044 m from the charge's middle, at 2.4",
+          {{"start.time", "30e-6"}, {"end_time", "1e-4"}});
+  EXPECT_EQ(mistakes(spherical, {{"start.time", "5e-6"}}), "");
+}
+
+TEST(Plausibility, MirrorImagesAreSaid) {
+  const std::string sphere = "shape = {type = \"sphere\", radius = 0.0072}";
+  refused(with(coupled_tube, sphere, "shape = {type = \"sphere\", radius = 0.0072, center = [0.002, 0, 0]}"),
+          "bodies.charge: its middle lies at x = 0.002 m, off the symmetry plane x = 0, which cuts it");
+  warned(with(coupled_tube, sphere, "shape = {type = \"sphere\", radius = 0.0072, center = [0.02, 0, 0]}"),
+         "bodies.charge lies off the symmetry plane x = 0: the whole scene has 2 of it");
+  warned(with(coupled_tube, sphere, "shape = {type = \"sphere\", radius = 0.0072, center = [0.02, 0, 0.03]}"),
+         "bodies.charge lies off the symmetry planes x = 0, z = 0: the whole scene has 4 of it");
+  warned(with(coupled_tube, "material = \"petn\"\n", "material = \"petn\"\nburn = {initiation = [0.003, 0, 0]}\n"),
+         "bodies.charge.burn: the initiation lies at x = 0.003 m, off the symmetry plane x = 0");
+  refused(with(coupled_tube, "material = \"petn\"\n", "material = \"petn\"\nvelocity = [1, 0, 0]\n"),
+          "bodies.charge: its velocity across the symmetry plane x = 0, which cuts it, is not its own mirror image");
+  refused(with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nvelocity = [0, 0, 3]"),
+          "structure.velocity has a component across the symmetry plane z = 0, which the structure touches");
+}
+
+const std::string plate_in_water = R"(end_time = 1e-5
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "below"
+shape = {type = "box", low = [0, 0, -0.2], high = [0.1, 0.1, 0]}
+material = "water-tait"
+[[bodies]]
+name = "above"
+shape = {type = "box", low = [0, 0, 0.02], high = [0.1, 0.1, 0.2]}
+material = "water-tait"
+[structure]
+shape = {type = "plate", low = [0, 0, 0], high = [0.1, 0.1, 0.02]}
+material = "steel-4340"
+wet = ["z_low", "z_high"]
+)";
+
+/// h = 1.5 dx and a kernel of radius 2 h: images in both faces meet up to 2 x 0.03 m less a spacing.
+TEST(Plausibility, ThinWallsBetweenWaters) {
+  refused(plate_in_water,
+          "structure is 0.02 m thick at [0.003125, 0.003125, 0] m with water on both sides: the water's kernel reaches 0.03 m, "
+          "so pressure "
+          "passes through it; it needs 0.05 m at least, better 0.06 m, or a spacing of at most 0.004 m");
+  EXPECT_EQ(mistakes(plate_in_water, {{"resolution.spacing", "0.004"}}), "");
+  EXPECT_EQ(warnings(plate_in_water, {{"resolution.spacing", "0.0033"}}), "");
+  warned(plate_in_water, "so pressure may pass through it", {{"resolution.spacing", "0.0038"}});
+  // Air or nothing behind it: any thickness will do.
+  EXPECT_EQ(mistakes(with(plate_in_water, "[\"z_low\", \"z_high\"]", "[\"z_low\"]"), {{"bodies.above.shape.low", "[0, 0, 0.1]"}}),
+            "");
+  refused(R"(dimension = 2
+end_time = 1e-4
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "left"
+shape = {type = "box", low = [0, 0], high = [0.5, 0.5]}
+material = "water-tait"
+[[bodies]]
+name = "right"
+shape = {type = "box", low = [0.51, 0], high = [1, 0.5]}
+material = "water-tait"
+[[walls]]
+name = "a"
+shape = {type = "box", low = [0, 0], high = [0.5, 0.5]}
+[[walls]]
+name = "b"
+shape = {type = "box", low = [0.51, 0], high = [1, 0.5]}
+)",
+          "the rigid wall beside walls.a is 0.01 m thick at [0.5, ");
+}
+
+/// Two cubes of a metre from a file, beside water.
+class GmshScene : public ::testing::Test {
+ protected:
+  std::string found(const std::string& low_of_water, const std::string& point = "[0.5, 0.5, 0.5]") {
+    std::ifstream file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh");
+    std::ostringstream mesh;
+    mesh << file.rdbuf();
+    scratch_.write(mesh_.empty() ? mesh.str() : mesh_, "cubes.msh");
+    const std::string text = R"(end_time = 1e-5
+[resolution]
+spacing = 0.1
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [LOW, 0, 0], high = [4, 1, 1]}
+material = "water-tait"
+[structure]
+shape = {type = "gmsh", path = "cubes.msh"}
+material = "steel-4340"
+wet = ["8"]
+[[probes]]
+name = "p"
+kind = "structure"
+point = POINT
+)";
+    try {
+      std::string all;
+      for (const std::string& warning : read(scratch_.write(with(with(text, "LOW", low_of_water), "POINT", point))).warnings)
+        all += "warning: " + warning;
+      return all;
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
+  void expect(const std::string& found, const std::string& expected) {
+    EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "\nexpected:\n" << expected;
+  }
+  scene::test::Scratch scratch_;
+  std::string mesh_;
+};
+
+TEST_F(GmshScene, GetsTheChecksOfBuiltInShapes) {
+  EXPECT_EQ(found("2"), "");
+  expect(found("2.3"),
+         "the face '8' touches no water: no body comes within two spacings (0.2 m) of it, the nearest is 0.3 m away");
+  expect(found("2.15"), "warning: ");
+  expect(found("2.15"), "the water begins 0.15 m from the face '8', more than a spacing (0.1 m)");
+  expect(found("1.8"), "bodies.water overlaps the structure, e.g. at [");
+  expect(found("2", "[0.5, 0.5, 1.4]"), "probes.p.point is 0.4 m away from the structure; move it onto it");
+}
+
+TEST_F(GmshScene, PiecesThatShareNoNodeAreSaid) {
+  const auto mesh_with_gap = [](const std::string& x) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 "
+           "1 1\n"
+           "9 " +
+           x + " 0 0\n10 2 0 0\n11 2 1 0\n12 " + x + " 1 0\n13 " + x + " 0 1\n14 2 0 1\n15 2 1 1\n16 " + x +
+           " 1 1\n$EndNodes\n"
+           "$Elements\n3\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 1 1 9 10 11 12 13 14 15 16\n3 3 2 8 8 10 11 15 14\n$EndElements\n";
+  };
+  mesh_ = mesh_with_gap("1.25");
+  expect(found("2"), "the mesh is in 2 pieces that share no node; the first and the next are 0.25 m apart at [1.25, ");
+  mesh_ = mesh_with_gap("1.0001");
+  expect(found("2"), "and touch or overlap, but nothing holds them together");
+  mesh_ = "$MeshFormat\n2.2 0 8\n";
+  expect(found("2"), "cubes.msh:2: the file ends within $MeshFormat");
+}
+
+TEST(Plausibility, PlacesAreKnownAfterReading) {
+  const scene::Scene scene = read_text(coupled_tube, {{"structure.courant", "0.5"}});
+  EXPECT_EQ(scene.places.finding("bodies.water.shape", "").where.line, 16);
+  EXPECT_EQ(scene.places.finding("bodies.water.spacing", "").where.line, 14);
+  EXPECT_EQ(scene.places.finding("structure.courant", "no").message, "-P structure.courant: no");
+}
+
+}  // namespace
