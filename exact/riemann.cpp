@@ -46,14 +46,20 @@ RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& rig
   const auto excess = [&](double p) { return reach(0, p).velocity_change + reach(1, p).velocity_change + apart; };
 
   double low = std::max(lowest[0], lowest[1]);
-  // What each side gains on its way to an opening: a liquid that could still be pulled stays at the pressure of the opening.
+  // What each side gains on its way to an opening, whose pressure is that of the side which cannot go lower. In a vacuum gases go on
+  // to nothing; all else stays at the opening's pressure.
+  const Isentrope& last = *isentrope_[lowest[0] < lowest[1]];
   double escape[2];
-  for (const int k : {0, 1})
-    escape[k] = isentrope_[k]->ends_before_a_void() ? reach(k, low).velocity_change : isentrope_[k]->riemann_limit();
+  bool to_nothing[2];
+  for (const int k : {0, 1}) {
+    const bool gas = !isentrope_[k]->ends_on_floor() && !isentrope_[k]->ends_before_a_void();
+    to_nothing[k] = gas && !last.ends_on_floor();
+    escape[k] = to_nothing[k] ? isentrope_[k]->riemann_limit() : reach(k, low).velocity_change;
+  }
   cavity_ = escape[0] + escape[1] + apart > 0.0 && excess(low) > 0.0;
   if (cavity_) {
     pressure_ = low;
-    if (isentrope_[lowest[0] < lowest[1]]->ends_before_a_void())
+    if (last.ends_before_a_void())
       refuse("the fluids are pulled apart by more than their laws can carry, ", low,
              " Pa; a law that cavitates has a solution, e.g. with cavitation = \"cutoff\"");
   } else {
@@ -73,7 +79,7 @@ RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& rig
     } else {
       const IsentropeState end = isentrope_[k]->at_density(r.density);
       // Where a gas expands into a vacuum the tail of the fan is its edge.
-      const bool vacuum = cavity_ && !isentrope_[k]->ends_on_floor();
+      const bool vacuum = cavity_ && to_nothing[k];
       wave_[k].head = side_[k].velocity + sign * isentrope_[k]->start().sound;
       wave_[k].tail = vacuum ? star_[k].velocity : star_[k].velocity + sign * end.sound;
       if (pressure_ == start_pressure_[k]) wave_[k].tail = wave_[k].head;

@@ -4,8 +4,8 @@
 // isentropes and shock states computed from the law). SI units.
 //
 // Barotropic laws have no energy equation: their shocks obey the conditions of mass and momentum only.
-// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less, each stays at its
-// floor and a cavity opens between them, as a vacuum does between two gases. A law without a floor carries tension as far as its
+// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less than one of these a cavity of that
+// pressure opens between them, as a vacuum does between two gases. A law without a floor carries tension as far as its
 // sound speed is real; what is pulled apart faster has no solution. Sides must be convex in the range of the solution (the speed
 // u + c rises with compression along the isentrope, the speed of a shock with its strength): composite waves are not built.
 #pragma once

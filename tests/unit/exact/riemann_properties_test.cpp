@@ -67,6 +67,10 @@ struct Simple {
   double energy, speed;
 };
 Simple simple_wave(const FluidLaw& law, double rho, double energy, double end) {
+  if (const auto* tait = std::get_if<materials::TaitWater>(&law)) {  // the sound speed jumps where cavitation begins
+    const double above = tait->liquid_limit() * (1 + 1e-12), below = tait->liquid_limit() * (1 - 1e-12);
+    if (rho > above && end < below) return {0, simple_wave(law, rho, 0, above).speed + simple_wave(law, below, 0, end).speed};
+  }
   const int steps = 4000;
   const double h = std::log(end / rho) / steps;
   const bool heat = materials::uses_energy(law);
@@ -110,7 +114,7 @@ void expect_wave(const RiemannSolution& solution, const RiemannSide& side, int k
       const double rise = 0.5 * (star.pressure + start.pressure) * (1 / side.density - 1 / star.density);
       EXPECT_NEAR(star.energy - side.energy, rise, 1e-8 * stiffness / side.density) << what << ": energy, side " << k;
     }
-  } else if (std::log(side.density / star.density) < 3.0 && !solution.cavity()) {
+  } else if (std::log(side.density / star.density) < 3.0 && !(solution.cavity() && materials::is_gas(side.law))) {
     const Simple wave = simple_wave(side.law, side.density, side.energy, star.density);
     const double sound = std::max(start.sound_speed, 1e-12);
     EXPECT_NEAR(outward * (star.velocity - side.velocity), wave.speed, 2e-6 * sound) << what << ": fan, side " << k;
@@ -177,7 +181,7 @@ TEST(RiemannProperties, AMetalWithoutCutOffIsSolvedUnderImpactAndRefusedWhenTorn
     RiemannSolution({metal, 2710, -6000}, {metal, 2710, 6000});
     ADD_FAILURE() << "torn apart, and solved";
   } catch (const std::domain_error& reason) {
-    EXPECT_NE(std::string(reason.what()).find("cut-off"), std::string::npos) << reason.what();
+    EXPECT_NE(std::string(reason.what()).find("cutoff"), std::string::npos) << reason.what();
   }
 }
 
