@@ -179,8 +179,8 @@ int failed(ExitCode code, const char* message) {
   return code;
 }
 
-/// Memory may run out where no exception can pass: on one of the threads of a loop, or in what a library does to tidy up. The end is
-/// that of any lack of it, with the record of the run. (Out of a loop of threads the exception comes without its name.)
+/// Memory may run out where no exception can pass: on one of the threads of a loop, or in what a library does to tidy up. The
+/// end is that of any lack of it, with the record of the run. (Out of a loop of threads the exception comes without its name.)
 [[noreturn]] void end_where_no_exception_passes() {
   static std::atomic_flag ending;
   while (ending.test_and_set()) pause();  // another thread sees to it

@@ -24,7 +24,8 @@ class LastWords {
   std::function<void(const char*)> task_;
 };
 
-/// For a terminate handler: does the task, once. Other threads may still be at work, so that the task may only touch what they do not.
+/// For a terminate handler: does the task, once. Other threads may still be at work, so that the task may only touch what they
+/// do not.
 inline void say_last_words(const char* why) noexcept {
   LastWords* const words = LastWords::present().exchange(nullptr);
   if (words == nullptr) return;

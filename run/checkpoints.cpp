@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/errors.hpp"
+#include "output/files.hpp"
 
 namespace undex::run {
 
@@ -38,6 +39,9 @@ void Checkpoints::restore(const output::Checkpoint& checkpoint) {
   checkpoint.restore([&](StateVisitor& visitor) { visit_state(visitor); });
   if (!title.whole_step) state_.simulation.find_rates_anew();
   last_time_ = state_.simulation.time();
+  // Where the newest was damaged, it gives its place to the good one: the next to be written must not push that out.
+  const std::filesystem::path newest = folder_ / output::checkpoint_names[0];
+  if (checkpoint.path() != newest) output::put_in_place(checkpoint.path(), newest);
 }
 
 void Checkpoints::write_if_due() {

@@ -7,9 +7,9 @@
 
 #include "scene/numbers.hpp"
 
-// The parser's own assertions fail on some damaged files, and it reaches what it holds for unreachable: a mistake of the file, not
-// of this program, and nothing that a compiler may build on. Its tests of a character, which let no exception pass, reach it for
-// letters that are no white space ("\u00e4"). Values within values go as deep as the stack bears with certainty.
+// The parser's own assertions fail on some damaged files, and it reaches what it holds for unreachable: a mistake of the file,
+// not of this program, and nothing that a compiler may build on. Its tests of a character, which let no exception pass, reach
+// it for letters that are no white space ("\u00e4"). Values within values go as deep as the stack bears with certainty.
 #define TOML_ASSERT(condition) static_cast<void>((condition) || (throw std::domain_error("unexpected characters"), false))
 #define TOML_MAX_NESTED_VALUES 32
 #pragma GCC diagnostic push

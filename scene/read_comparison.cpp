@@ -14,7 +14,7 @@ bool has_key(const ComparisonKind& kind, const std::string& key) {
 
 const ComparisonKind* read_kind(const TableReader& table, const std::vector<ComparisonKind>& kinds, std::string& into) {
   Choices<std::string> choices{{"none", "none"}};
-  for (const ComparisonKind& kind : kinds) choices.emplace_back(kind.name.c_str(), kind.name);
+  for (const ComparisonKind& kind : kinds) choices.push_back({kind.name.c_str(), kind.name});
   table.read_choice<std::string>("kind", into, choices);
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const ComparisonKind& kind) { return kind.name == into; });
   return found == kinds.end() ? nullptr : &*found;
@@ -43,7 +43,7 @@ void read_solution(const TableReader& table, Comparison& comparison) {
   Solution solution{};
   Choices<Solution> choices;
   for (const Solution each : {Solution::riemann, Solution::taylor_wave, Solution::sedov, Solution::noh})
-    choices.emplace_back(solution_name(each), each);
+    choices.push_back({solution_name(each), each});
   if (table.need("solution", "name the exact solution, e.g. solution = \"riemann\"") &&
       table.read_choice<Solution>("solution", solution, choices))
     comparison.solution = solution;

@@ -1,5 +1,7 @@
 // The passes of solids over pairs of the present: stresses and forces of bodies in an updated Lagrangian description, and
 // contact between bodies of either. Particles are copied into rows sorted by cell, and what they receive is copied back.
+// Particles of updated bodies that touch a rigid plane, and those upon them, have images behind it (plane_contact.hpp), which
+// are rows too.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +10,7 @@
 #include "sph_fluid/pairs/blocks.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/pairs/pair_data.hpp"
+#include "sph_solid/plane_contact.hpp"
 #include "sph_solid/solid_loops.hpp"
 #include "sph_solid/settings.hpp"
 #include "sph_solid/solid_particles.hpp"
@@ -39,6 +42,10 @@ class SolidPairs {
 
  private:
   void pack(const SolidParticles& particles);
+  void find_images(const SolidParticles& particles);
+  /// Images get the rows of their particles; afterwards what they have received goes to them.
+  void fill_image_rows();
+  void scatter_images();
   sph::PairInput input(const std::vector<sph::GroupView>& views);
   void run(void (*pass)(const sph::PairInput&, const sph::PairOutput&), const sph::PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
@@ -62,6 +69,17 @@ class SolidPairs {
   std::vector<sph::DeformationRow> deformation_;
   std::vector<sph::SumRow> sums_;
   std::vector<Mat3> inverse_deformation_;  ///< empty where there is no water
+  struct Image {
+    std::uint32_t row;  ///< of the particle that it shows
+    unsigned axes;      ///< mirrored across which, a bit each
+    Vec3 place;
+  };
+  std::vector<Image> images_;  ///< sorted by group and cell
+  std::vector<std::vector<double>> image_place_;
+  std::vector<sph::CellList> image_cells_;
+  std::vector<sph::FluidRow> image_rows_;
+  std::vector<sph::SolidRow> image_solid_;
+  std::vector<sph::SumRow> image_sums_;
   std::vector<long long> interactions_;
   std::vector<sph::Scratch> scratch_;
 };

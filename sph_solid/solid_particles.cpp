@@ -12,9 +12,12 @@ void SolidParticles::resize(std::size_t n) {
   for (auto* field : {&mass, &rho, &pressure, &viscous_pressure, &plastic_strain, &temperature, &damage, &energy, &plastic_energy,
                       &viscous_energy, &contact_pressure, &contact_reference, &sound, &heat, &rate})
     field->assign(n, 0.0);
+  touching.assign(n, 0);
 }
 
-std::size_t SolidParticles::memory_bytes() const { return size() * (4 * sizeof(Vec3) + (6 + 15) * sizeof(double)); }
+std::size_t SolidParticles::memory_bytes() const {
+  return size() * (4 * sizeof(Vec3) + (6 + 15) * sizeof(double) + sizeof(std::uint32_t));
+}
 
 void SolidParticles::visit_state(StateVisitor& state) {
   state("position", x);
@@ -33,6 +36,7 @@ void SolidParticles::visit_state(StateVisitor& state) {
   state("contact pressure", contact_pressure);
   state("contact reference", contact_reference);
   state("sound", sound);
+  state("touching", touching);
   state("force", force);
   state("heat", heat);
   state("rate", rate);

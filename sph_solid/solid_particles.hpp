@@ -25,6 +25,7 @@ struct SolidParticles {
   std::vector<double> contact_pressure;                ///< with other bodies (solid_schemes.hpp) [Pa]
   std::vector<double> contact_reference;               ///< least overlap with other bodies so far [-]
   std::vector<double> sound;                           ///< longitudinal wave speed [m/s]
+  std::vector<std::uint32_t> touching;                 ///< which rigid planes, a bit each (plane_contact.hpp)
 
   // What the last evaluation gave.
   std::vector<Vec3> force;   ///< [N]

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "sph_solid/plane_contact.hpp"
 #include "sph_solid/solid_pairs.hpp"
 #include "sph_solid/solid_particles.hpp"
 #include "sph_solid/solids.hpp"
@@ -17,6 +18,7 @@ struct SolidGroup {
   std::uint32_t begin, end;
   double spacing, h;                            // [m]
   std::unique_ptr<TotalLagrangian> lagrangian;  // null: updated Lagrangian
+  std::vector<OuterLayer> layer;                // towards each rigid plane
 };
 
 struct Solids::Implementation {
@@ -61,6 +63,11 @@ struct Solids::Implementation {
   // The step: kick, drift, stresses and forces, kick (central differences, exact for a step that varies).
   void step(double dt);
   void meet_planes(double dt);
+  void find_touching(double dt);
+  void book_images(double interval);
+  void release();
+  double gap(const SolidGroup& group, std::size_t plane, std::uint32_t particle) const;  // to touching [m]
+  bool may_touch(const SolidGroup& group, std::size_t plane, std::uint32_t particle) const;
   void find_forces(double dt);
   void find_acceleration();
   double held_back(double dt) const;

@@ -7,71 +7,15 @@
 
 #include "sph_fluid/pairs/kernels.hpp"
 #include "sph_fluid/pairs/sums.hpp"
+#include "sph_solid/bins.hpp"
 
 namespace undex::solid {
 
 using namespace sph;  // pairs, cells and kernels
-namespace {
-
-using Kernel = WendlandC2;
-constexpr double sign_of[2] = {1.0, -1.0};
-
-Vec3 mirrored(Vec3 x, unsigned image) {
-  for (int a = 0; a < 3; ++a)
-    if (image >> a & 1) x[a] = -x[a];
-  return x;
-}
-
-/// Particles in cubes as wide as the reach, for one search.
-class Bins {
- public:
-  Bins(std::span<const Vec3> x, double width) : x_(x), width_(width) {
-    for (const Vec3& point : x) box_.include(point);
-    for (int a = 0; a < 3; ++a) count_[a] = std::max(1L, std::lround(std::ceil((box_.high[a] - box_.low[a]) / width)));
-    start_.assign(std::size_t(count_[0]) * count_[1] * count_[2] + 1, 0);
-    for (const Vec3& point : x) ++start_[bin(point) + 1];
-    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
-    order_.resize(x.size());
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    for (std::uint32_t i = 0; i < x.size(); ++i) order_[next[bin(x[i])]++] = i;
-  }
-
-  /// Calls visit(index) for every particle in the cubes round the point.
-  template <class Visit>
-  void around(const Vec3& point, Visit visit) const {
-    long low[3], high[3];
-    for (int a = 0; a < 3; ++a) {
-      const long here = long(std::floor((point[a] - box_.low[a]) / width_));
-      low[a] = std::max(0L, here - 1);
-      high[a] = std::min(count_[a] - 1, here + 1);
-    }
-    for (long k = low[2]; k <= high[2]; ++k)
-      for (long j = low[1]; j <= high[1]; ++j)
-        for (long i = low[0]; i <= high[0]; ++i) {
-          const std::size_t b = (std::size_t(k) * count_[1] + j) * count_[0] + i;
-          for (std::uint32_t n = start_[b]; n < start_[b + 1]; ++n) visit(order_[n]);
-        }
-  }
-
- private:
-  std::size_t bin(const Vec3& point) const {
-    long at[3];
-    for (int a = 0; a < 3; ++a) at[a] = std::clamp(long(std::floor((point[a] - box_.low[a]) / width_)), 0L, count_[a] - 1);
-    return (std::size_t(at[2]) * count_[1] + at[1]) * count_[0] + at[0];
-  }
-
-  std::span<const Vec3> x_;
-  double width_;
-  Bounds box_;
-  long count_[3];
-  std::vector<std::uint32_t> start_, order_;
-};
-
-}  // namespace
 
 TotalLagrangian::TotalLagrangian(const Settings& settings, const sph::Settings& around, const Body& body, std::uint32_t begin,
                                  std::uint32_t end, double h, double spacing, std::span<const double> volume,
-                                 const SolidParticles& particles)
+                                 std::span<const OuterLayer> layer, const SolidParticles& particles)
     : body_(&body), begin_(begin), end_(end), dimension_(around.dimension), h_(h), spacing_(spacing) {
   const Numerics& numerics = settings.numerics;
   hourglass_ = numerics.hourglass * body.material.shear_modulus;
@@ -83,32 +27,43 @@ TotalLagrangian::TotalLagrangian(const Settings& settings, const sph::Settings& 
   start_density_.assign(particles.rho.begin() + begin, particles.rho.begin() + end);
   deformation_.assign(n, Mat3::Identity());
   inverse_moment_.resize(n);
+  deformation_rate_.assign(n, Mat3::Zero());
   stretched_.assign(n, 0.0);
   stiffness_.assign(n, hourglass_);
   rows_.resize(n);
-  find_neighbours(around, volume, particles);
+  backed_.assign(n, 0);
+  swollen_.assign(n, 1.0);
+  planes_ = settings.planes;
+  find_layers(settings, layer, particles);
+  list_images(around, settings, layer, particles);
+  find_neighbours(volume, particles);
 }
 
-void TotalLagrangian::find_neighbours(const sph::Settings& around, std::span<const double> volume,
-                                      const SolidParticles& particles) {
+void TotalLagrangian::find_neighbours(std::span<const double> volume, const SolidParticles& particles) {
   const std::uint32_t n = end_ - begin_;
   const double reach = Kernel::support * h_;
   const std::span<const Vec3> X(particles.start.data() + begin_, n);
   const Bins bins(X, reach);
-  unsigned images[8], image_count = 0;
-  for (unsigned image = 0; image < 8; ++image) {
-    bool wanted = true;
-    for (int a = 0; a < 3; ++a) wanted = wanted && (!(image >> a & 1) || around.symmetry.axis[a]);
-    if (wanted) images[image_count++] = image;
-  }
+  const auto mirrored = [&](Vec3 x, const Image& image) {
+    for (int a = 0; a < 3; ++a) x[a] = image.sign[a] * x[a] + image.at_start[a];
+    return x;
+  };
   const auto for_each_neighbour = [&](std::uint32_t i, auto visit) {
-    for (unsigned m = 0; m < image_count; ++m)
+    for (std::uint32_t m = 0; m < images_.size(); ++m) {
+      const Image& image = images_[m];
+      const auto lies_upon = [&](std::uint32_t k) {  // every layer that the image is made by
+        for (std::size_t p = 0; p < planes_.size(); ++p)
+          if (image.planes >> p & 1 && below_[p][k] == none) return false;
+        return true;
+      };
+      if (image.planes && !lies_upon(i)) continue;
       // The images of others near me are the others near my image.
-      bins.around(mirrored(X[i], images[m]), [&](std::uint32_t j) {
-        if (j == i && images[m] == 0) return;
-        const Vec3 d = X[i] - mirrored(X[j], images[m]);
-        if (d.squaredNorm() < reach * reach) visit(j, images[m], d);
+      bins.around(mirrored(X[i], image), [&](std::uint32_t j) {
+        if (j == i && m == 0) return;
+        const Vec3 d = X[i] - mirrored(X[j], image);
+        if (d.squaredNorm() < reach * reach && (!image.planes || lies_upon(j))) visit(j, m, d);
       });
+    }
   };
   first_.assign(n + 1, 0);
 #pragma omp parallel for schedule(dynamic, 256)
@@ -124,7 +79,7 @@ void TotalLagrangian::find_neighbours(const sph::Settings& around, std::span<con
       const double r = d.norm();
       const double s = -(volume[i] * volume[j]) * gradient_factor<Kernel>(r, h_, dimension_);
       const Vec3 w = -s * d;
-      moment += s * d * d.transpose();
+      if (!images_[image].planes) moment += s * d * d.transpose();
       neighbours_[at++] = {w[0], w[1], w[2], s, j, image};
     });
     std::sort(neighbours_.begin() + first_[i], neighbours_.begin() + first_[i + 1],
@@ -140,7 +95,36 @@ void TotalLagrangian::find_neighbours(const sph::Settings& around, std::span<con
                                 "spacings thick: use a finer spacing");
 }
 
+Mat3 TotalLagrangian::gradient_of(const SolidParticles& p, std::uint32_t i, double back, double& stretched) const {
+  const auto place = [&](std::uint32_t k) -> Vec3 {
+    return back == 0.0 ? p.x[begin_ + k] : Vec3(p.x[begin_ + k] - back * p.v[begin_ + k]);
+  };
+  const Vec3 me = place(i);
+  double d[9] = {}, squares = 0;
+  for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
+    const Neighbour& j = neighbours_[k];
+    if (!counts(i, j)) continue;
+    const Vec3 at = place(j.index);
+    const Image& m = images_[j.image];
+    const double x = m.sign[0] * at[0] + m.offset[0] - me[0], y = m.sign[1] * at[1] + m.offset[1] - me[1],
+                 z = m.sign[2] * at[2] + m.offset[2] - me[2];
+    d[0] += x * j.wx, d[1] += x * j.wy, d[2] += x * j.wz;
+    d[3] += y * j.wx, d[4] += y * j.wy, d[5] += y * j.wz;
+    d[6] += z * j.wx, d[7] += z * j.wy, d[8] += z * j.wz;
+    squares += j.s * (x * x + y * y + z * z);
+  }
+  Mat3 D, F;
+  D << d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7], d[8];
+  F.noalias() = D * inverse_moment_[i];
+  for (int a = dimension_; a < 3; ++a) F(a, a) = 1.0;
+  double affine = 0;
+  for (int a = 0; a < dimension_; ++a) affine += D.row(a).dot(F.row(a));
+  stretched = std::max(0.0, squares - affine);
+  return F;
+}
+
 void TotalLagrangian::update(SolidParticles& p, double dt) {
+  follow_contact(p);
   const std::uint32_t n = end_ - begin_;
   const std::uint32_t batch = materials::points_at_once;
 #pragma omp parallel for schedule(static)
@@ -149,30 +133,14 @@ void TotalLagrangian::update(SolidParticles& p, double dt) {
     Mat3 after[materials::points_at_once];
     const std::uint32_t last = std::min(n, first + batch);
     for (std::uint32_t i = first; i < last; ++i) {
-      const Vec3 me = p.x[begin_ + i];
-      double d[9] = {}, squares = 0;
-      for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
-        const Neighbour& j = neighbours_[k];
-        const Vec3& at = p.x[begin_ + j.index];
-        const double x = sign_of[j.image & 1] * at[0] - me[0], y = sign_of[j.image >> 1 & 1] * at[1] - me[1],
-                     z = sign_of[j.image >> 2 & 1] * at[2] - me[2];
-        d[0] += x * j.wx, d[1] += x * j.wy, d[2] += x * j.wz;
-        d[3] += y * j.wx, d[4] += y * j.wy, d[5] += y * j.wz;
-        d[6] += z * j.wx, d[7] += z * j.wy, d[8] += z * j.wz;
-        squares += j.s * (x * x + y * y + z * z);
-      }
-      Mat3 D;
-      D << d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7], d[8];
+      if (!anew_.empty() && anew_[i]) begin_anew(p, i, dt);
       Mat3& F = after[i - first];
-      F.noalias() = D * inverse_moment_[i];
-      for (int a = dimension_; a < 3; ++a) F(a, a) = 1.0;
-      double affine = 0;
-      for (int a = 0; a < dimension_; ++a) affine += D.row(a).dot(F.row(a));
-      stretched_[i] = std::max(0.0, squares - affine);
+      F = gradient_of(p, i, 0.0, stretched_[i]);
       step.append(begin_ + i, deformation_[i], F, start_density_[i] / F.determinant());
     }
     update_stress(body_->material, viscosity_, step, dt, p);
     for (std::uint32_t i = first; i < last; ++i) {
+      deformation_rate_[i] = (after[i - first] - deformation_[i]) / dt;
       deformation_[i] = after[i - first];
       const double plastic = p.plastic_strain[begin_ + i];
       if (plastic > 0.0) {
@@ -191,7 +159,7 @@ void TotalLagrangian::make_row(const SolidParticles& p, std::uint32_t k, const M
   const std::uint32_t i = begin_ + k;
   Mat3 sigma = p.stress(i);
   sigma.diagonal().array() -= p.viscous_pressure[i];
-  const Mat3 piola = F.determinant() * sigma * F.inverse().transpose();
+  const Mat3 piola = (F.determinant() * swollen_[k]) * sigma * F.inverse().transpose();
   const Mat3 a = volume_[k] * piola * inverse_moment_[k] - stiffness_[k] * F;
   Row& row = rows_[k];
   for (int r = 0; r < 3; ++r) {
@@ -201,7 +169,7 @@ void TotalLagrangian::make_row(const SolidParticles& p, std::uint32_t k, const M
   row.k = stiffness_[k];
 }
 
-void TotalLagrangian::add_forces(SolidParticles& p) {
+void TotalLagrangian::add_forces(SolidParticles& p, const std::vector<Vec3>& acceleration, double dt) {
   const std::uint32_t n = end_ - begin_;
 #pragma omp parallel
   {
@@ -216,21 +184,65 @@ void TotalLagrangian::add_forces(SolidParticles& p) {
       double f[3] = {};
       for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
         const Neighbour& j = neighbours_[k];
+        if (!counts(i, j)) continue;
         const Row& other = rows_[j.index];
-        const double sx = sign_of[j.image & 1], sy = sign_of[j.image >> 1 & 1], sz = sign_of[j.image >> 2 & 1];
+        const Image& m = images_[j.image];
+        const double sx = m.sign[0], sy = m.sign[1], sz = m.sign[2];
         const double wx = j.wx, wy = j.wy, wz = j.wz, stiff = j.s * (me.k + other.k);
         // The mirrored matrix times w is the mirror image of the matrix times the mirrored w.
         const double mx = sx * wx, my = sy * wy, mz = sz * wz;
         const double* a = other.a;
         f[0] += me.a[0] * wx + me.a[1] * wy + me.a[2] * wz + sx * (a[0] * mx + a[1] * my + a[2] * mz) +
-                stiff * (sx * other.x[0] - me.x[0]);
+                stiff * (sx * other.x[0] + m.offset[0] - me.x[0]);
         f[1] += me.a[3] * wx + me.a[4] * wy + me.a[5] * wz + sy * (a[3] * mx + a[4] * my + a[5] * mz) +
-                stiff * (sy * other.x[1] - me.x[1]);
+                stiff * (sy * other.x[1] + m.offset[1] - me.x[1]);
         f[2] += me.a[6] * wx + me.a[7] * wy + me.a[8] * wz + sz * (a[6] * mx + a[7] * my + a[8] * mz) +
-                stiff * (sz * other.x[2] - me.x[2]);
+                stiff * (sz * other.x[2] + m.offset[2] - me.x[2]);
       }
       for (int axis = 0; axis < dimension_; ++axis) p.force[begin_ + i][axis] += f[axis];
     }
+  }
+  add_pair_viscosity(p, acceleration, dt);
+}
+
+/// The viscosity of pairs behind strong shocks: on the relative velocity along the pair that neither side's F carries.
+void TotalLagrangian::add_pair_viscosity(SolidParticles& p, const std::vector<Vec3>& acceleration, double dt) {
+  constexpr double alpha = 0.5, beta = 2.0;
+  constexpr double from = 0.10, in_full = 0.15;  // compression, 1 - rho0/rho
+  const std::uint32_t n = end_ - begin_;
+  std::fill(p.heat.begin() + begin_, p.heat.begin() + end_, 0.0);
+  const double rho0 = body_->material.rho0;
+  const double densest = n > 0 ? *std::max_element(p.rho.begin() + begin_, p.rho.begin() + end_) : 0.0;
+  if (dt <= 0.0 || 1.0 - rho0 / densest <= from) return;
+#pragma omp parallel for schedule(static)
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t a = begin_ + i;
+    const Vec3 v = p.v[a] + 0.5 * dt * acceleration[a];
+    Vec3 force = Vec3::Zero();
+    double heat = 0, fastest = 0;
+    for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
+      const Neighbour& j = neighbours_[k];
+      if (!counts(i, j)) continue;
+      const std::uint32_t b = begin_ + j.index;
+      const double rho = 0.5 * (p.rho[a] + p.rho[b]);
+      const double share = std::min((1.0 - rho0 / rho - from) / (in_full - from), 1.0);
+      if (share <= 0.0) continue;
+      const Image& m = images_[j.image];
+      const Eigen::Map<const Vec3> sign(m.sign), offset(m.offset);
+      const Vec3 X = Vec3(j.wx, j.wy, j.wz) / j.s;
+      const Vec3 e = (sign.cwiseProduct(p.x[b]) + offset - p.x[a]).normalized();
+      const double parting = e.dot(sign.cwiseProduct(p.v[b] + 0.5 * dt * acceleration[b]) - v);
+      const Vec3 carried = deformation_rate_[i] * X + sign.cwiseProduct(deformation_rate_[j.index] * sign.cwiseProduct(X));
+      const double jump = parting - 0.5 * e.dot(carried);
+      const double speed = share * (alpha * 0.5 * (p.sound[a] + p.sound[b]) + beta * std::abs(jump));
+      const double pull = j.s * X.norm() * rho * speed * jump;
+      force += pull * e;
+      heat += 0.5 * pull * parting;
+      fastest = std::max(fastest, speed);
+    }
+    for (int axis = 0; axis < dimension_; ++axis) p.force[a][axis] += force[axis];
+    p.heat[a] = heat / p.mass[a];
+    p.rate[a] += 2.0 * fastest / spacing_;
   }
 }
 
@@ -245,6 +257,10 @@ void TotalLagrangian::visit_state(StateVisitor& state) {
   state("deformation", deformation_);
   state("stretched", stretched_);
   state("stiffness", stiffness_);
+  state("backed", backed_);
+  state("inverse moment", inverse_moment_);
+  state("start density", start_density_);
+  state("swollen", swollen_);
 }
 
 double TotalLagrangian::hourglass_energy() const {
@@ -253,7 +269,8 @@ double TotalLagrangian::hourglass_energy() const {
 
 std::size_t TotalLagrangian::memory_bytes() const {
   return neighbours_.capacity() * sizeof(Neighbour) + first_.capacity() * sizeof(std::uint64_t) +
-         (end_ - begin_) * (2 * sizeof(Mat3) + 4 * sizeof(double) + sizeof(Row));
+         (end_ - begin_) *
+             (3 * sizeof(Mat3) + 5 * sizeof(double) + sizeof(Row) + sizeof(PlaneSet) + below_.size() * sizeof(std::uint32_t));
 }
 
 }  // namespace undex::solid

@@ -8,12 +8,20 @@
 // doi 10.1016/j.cma.2017.03.043, and Ganzenmueller 2015, doi 10.1016/j.cma.2014.12.005). F_i minimises the sum for fixed
 // weights s_ij, which is why no term with dF/dx is left over. k follows the secant of the flow curve, so that plastic flow
 // is not held up: k = hourglass G/(1 + 3 G eps_p/Y).
+// Behind strong shocks, where neighbours run into each other faster than k can hold apart, a viscosity acts along the pair on
+// what is left of their relative velocity once both sides' F have carried it to the middle,
+//   pull_ij = s_ij |X_ij| rho (alpha c + beta |w|) w,   w = e . (v_ij - (F'_i + F'_j) X_ij/2),
+// with a share that rises from 0 to 1 between compressions (1 - rho0/rho) of 10 and 15 %. Without it particles pass each other.
+// A flat layer that touches a rigid plane, and what lies upon it, has images behind the plane as at a symmetry plane
+// (plane_contact.hpp): neighbours of the start that count as long as both sides of the pair are backed.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "sph_fluid/pairs/kernels.hpp"
+#include "sph_solid/plane_contact.hpp"
 #include "sph_solid/settings.hpp"
 #include "sph_solid/solid_particles.hpp"
 
@@ -24,12 +32,17 @@ class TotalLagrangian {
   /// Finds the neighbours of particles begin..end, whose volumes [m^d] at the start are given. `scale` multiplies volumes'
   /// smoothing length h [m]. Throws std::invalid_argument where a particle has too few neighbours for a gradient.
   TotalLagrangian(const Settings& settings, const sph::Settings& around, const Body& body, std::uint32_t begin, std::uint32_t end,
-                  double h, double spacing, std::span<const double> volume, const SolidParticles& particles);
+                  double h, double spacing, std::span<const double> volume, std::span<const OuterLayer> layer,
+                  const SolidParticles& particles);
 
   /// Deformation gradients at the present positions, and stresses after a step dt [s].
   void update(SolidParticles& particles, double dt);
-  /// Adds the forces of the present stresses.
-  void add_forces(SolidParticles& particles);
+  /// Adds the forces of the present stresses, after a step dt [s] (zero: at the start). `acceleration` [m/s^2] predicts
+  /// velocities for the viscosity of pairs.
+  void add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+
+  /// Can the particle touch that rigid plane as a mirror? It belongs to a flat layer that is parallel to the plane.
+  bool may_touch(std::size_t plane, std::uint32_t particle) const;
 
   void visit_state(StateVisitor& state);
 
@@ -38,16 +51,38 @@ class TotalLagrangian {
   std::size_t memory_bytes() const;
 
  private:
+  using Kernel = sph::WendlandC2;
+  static constexpr std::uint32_t none = ~std::uint32_t(0);
   struct Neighbour {
     double wx, wy, wz, s;
     std::uint32_t index;  ///< of the body's own numbering
-    std::uint32_t image;  ///< mirrored across which planes
+    std::uint32_t image;  ///< which of images_; 0: the particle itself
+  };
+  /// How particles are mirrored: x -> sign x + offset.
+  struct Image {
+    double sign[3], offset[3];  ///< of the present [m]
+    double at_start[3];         ///< offset of the start [m]
+    PlaneSet planes;            ///< the rigid ones among the mirrors
   };
   struct alignas(64) Row {
     double a[9], k, x[3];
   };
-  void find_neighbours(const sph::Settings& around, std::span<const double> volume, const SolidParticles& particles);
+  void list_images(const sph::Settings& around, const Settings& settings, std::span<const OuterLayer> layer,
+                   const SolidParticles& particles);
+  void find_layers(const Settings& settings, std::span<const OuterLayer> layer, const SolidParticles& particles);
+  /// Particles that have begun or ceased to be backed since the last step: their moments.
+  void follow_contact(const SolidParticles& particles);
+  /// F of particle i where it was `back` [s] ago on its way of the step, and sum_j s_ij |F X_ij - x_ij|^2.
+  Mat3 gradient_of(const SolidParticles& particles, std::uint32_t i, double back, double& stretched) const;
+  void begin_anew(SolidParticles& particles, std::uint32_t i, double dt);
+  Mat3 moment_of(std::uint32_t i) const;
+  bool counts(std::uint32_t i, const Neighbour& j) const {
+    const PlaneSet planes = images_[j.image].planes;
+    return (planes & backed_[i] & backed_[j.index]) == planes;
+  }
+  void find_neighbours(std::span<const double> volume, const SolidParticles& particles);
   void make_row(const SolidParticles& particles, std::uint32_t k, const Mat3& F);
+  void add_pair_viscosity(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
   void find_rate(SolidParticles& particles, std::uint32_t i, const Mat3& F) const;
 
   const Body* body_;
@@ -59,9 +94,16 @@ class TotalLagrangian {
   std::vector<Neighbour> neighbours_;
   std::vector<double> start_density_, volume_;
   std::vector<Mat3> inverse_moment_, deformation_;
-  std::vector<double> stretched_;  ///< sum_j s_ij |F_i X_ij - x_ij|^2 [N m/Pa]
-  std::vector<double> stiffness_;  ///< k [Pa]
+  std::vector<Mat3> deformation_rate_;  ///< over the last step [1/s]
+  std::vector<double> stretched_;       ///< sum_j s_ij |F_i X_ij - x_ij|^2 [N m/Pa]
+  std::vector<double> stiffness_;       ///< k [Pa]
   std::vector<Row> rows_;
+  std::vector<Image> images_;
+  std::vector<RigidPlane> planes_;
+  std::vector<std::vector<std::uint32_t>> below_;  ///< per rigid plane: which particle of the flat layer one lies upon, or none
+  std::vector<double> swollen_;                    ///< volume over V det F, where neighbours have come or gone [-]
+  std::vector<unsigned char> anew_;                ///< whose neighbours have in this step; empty: nobody's
+  std::vector<PlaneSet> backed_;                   ///< by which rigid planes
 };
 
 }  // namespace undex::solid

@@ -591,6 +591,8 @@ class Resume(Case):
                 self.assertRegex(finished.stderr, "checkpoint.h5: the file is damaged")
                 self.assertEqual(runs.differences(self.here / "whole", self.here / "out"), [])
                 (self.here / "out/summary.json").unlink()
+                for other in (self.here / "out").glob("checkpoint*.h5"):  # no damaged one has taken a good one's place
+                    self.assertNotEqual(other.read_bytes(), bytes(data), other)
                 path.write_bytes(data)
             else:
                 self.ends(finished, 4, "damaged", "--force")

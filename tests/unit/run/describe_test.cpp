@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/run/scenes.hpp"
+#include "scenes.hpp"
 
 namespace undex::run {
 namespace {

@@ -1,5 +1,5 @@
-// Every pair of features that a scene may combine: either the scene is refused with a reason, or a short run closes its ledgers. The
-// scene is a small column of water with a deforming plate on it; a feature changes one thing of it.
+// Every pair of features that a scene may combine: either the scene is refused with a reason, or a short run closes its
+// ledgers. The scene is a small column of water with a deforming plate on it; a feature changes one thing of it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -194,7 +194,8 @@ const std::vector<Feature>& features() {
   return all;
 }
 
-/// Reads, starts and runs it for 4 us. Empty: it closes, or is refused with a reason (which `refusal` then is); else what is wrong.
+/// Reads, starts and runs it for 4 us. Empty: it closes, or is refused with a reason (which `refusal` then is); else what is
+/// wrong.
 std::string fault_of(const Column& column, std::string& refusal) {
   try {
     scene::Scene scene = read_text(column.text());

@@ -160,13 +160,15 @@ TEST_P(Both, EnergyBalancesInLargePlasticDeformation) {
   Scene s = scene({rod}, 0.8e-3);
   s.around.symmetry.axis = {true, true, false};
   s.solids.planes = {{2, 0.0, true}};
+  // Of first order in the step in an updated description: 0.8 % at 0.5, of which the plane, a mirror, swallows nothing.
+  if (GetParam() == Description::updated_lagrangian) s.solids.numerics.courant = 0.25;
   Solids solids(s.solids, s.around);
   const double start = solids.ledger().kinetic;
   solids.advance(20e-6);
   const BodyLedger end = solids.ledger();
   EXPECT_NEAR(end.balance() / start, 1.0, 5e-3);
   EXPECT_GT(end.plastic, 0.6 * start);
-  EXPECT_LE(end.external, 0.0);  // the plane takes, and gives nothing
+  EXPECT_LE(end.external, 0.0);  // a plane takes from edges that come down on it, and gives nothing
   EXPECT_GT(end.external, -0.1 * start);
 }
 
@@ -242,7 +244,7 @@ TEST_P(Both, BarBouncesOffAPlane) {
     lost[level] = 1 - solids.ledger().momentum[0] / (10 * mass);
     for (const Vec3& x : solids.positions()) EXPECT_GT(x[0], 0.4 * s.around.lattice.spacing);
   }
-  // The first layer stops dead: what that takes falls with its thickness.
+  // What the bar keeps in its ringing falls with the spacing.
   EXPECT_LT(lost[1], 0.08);
   EXPECT_LT(lost[1], 0.7 * lost[0]);
 }
