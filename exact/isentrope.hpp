@@ -21,9 +21,9 @@ struct IsentropeState {
 /// Expansion from (density, energy), integrated in ln rho by
 ///   de = p/rho dln(rho),  dw = c dln(rho).
 /// It ends where the law's cavitation floor begins (from there on the true sound speed is zero and nothing
-/// more is gained), where a gas has expanded until its sound speed is 1e-7 of the first, or where a law that carries tension has
-/// no more of it to give: its sound speed is no longer real. Throws std::domain_error where the law gives no pressure or sound speed
-/// at the start.
+/// more is gained), where a gas has expanded until its sound speed is 1e-7 of the first, or where a law that
+/// carries tension has no more of it to give: its sound speed is no longer real. Throws std::domain_error
+/// where the law gives no pressure or sound speed at the start.
 class Isentrope {
  public:
   Isentrope(const materials::FluidLaw& law, double density, double energy);

@@ -46,8 +46,8 @@ RiemannSolution::RiemannSolution(const RiemannSide& left, const RiemannSide& rig
   const auto excess = [&](double p) { return reach(0, p).velocity_change + reach(1, p).velocity_change + apart; };
 
   double low = std::max(lowest[0], lowest[1]);
-  // What each side gains on its way to an opening, whose pressure is that of the side which cannot go lower. In a vacuum gases go on
-  // to nothing; all else stays at the opening's pressure.
+  // What each side gains on its way to an opening, whose pressure is that of the side which cannot go lower. In a
+  // vacuum gases go on to nothing; all else stays at the opening's pressure.
   const Isentrope& last = *isentrope_[lowest[0] < lowest[1]];
   double escape[2];
   bool to_nothing[2];
@@ -110,7 +110,8 @@ double RiemannSolution::crossing(const Rising& excess, double low) const {
   return high;
 }
 
-/// Fans whose u + c falls towards the contact, and shocks none of whose weaker ones is faster (Liu's condition), are the solution.
+/// Fans whose u + c falls towards the contact, and shocks none of whose weaker ones is faster (Liu's condition),
+/// are the solution.
 void RiemannSolution::expect_convex() const {
   constexpr int samples = 64;
   for (const int k : {0, 1}) {

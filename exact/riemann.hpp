@@ -33,9 +33,9 @@ struct RiemannSample {
 
 class RiemannSolution {
  public:
-  /// Throws std::invalid_argument unless densities are positive and velocities finite; std::domain_error, with the reason, where the
-  /// laws have no such solution: a state without pressure or sound speed, a shock beyond the law's range, a tension beyond it, or a
-  /// wave that is not convex.
+  /// Throws std::invalid_argument unless densities are positive and velocities finite; std::domain_error, with the
+  /// reason, where the laws have no such solution: a state without pressure or sound speed, a shock or a tension
+  /// beyond the law's range, or a wave that is not convex.
   RiemannSolution(const RiemannSide& left, const RiemannSide& right);
 
   /// Pressure at the contact [Pa]; with a cavity that on its edges.

@@ -42,7 +42,8 @@ Line line_of(const scene::Scene& scene) {
           .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
 }
 
-/// The one-dimensional mesh of the water: as fine as the wave asks for, and finer towards a plate that weighs less than little water.
+/// The one-dimensional mesh of the water: as fine as the wave asks for, and finer towards a plate that weighs less
+/// than little water.
 struct LineMesh {
   double cells, uniform, last;  // number; width of uniform ones and of that at the plate [m]
 };

@@ -62,7 +62,8 @@ std::vector<Named> laws() {
   return all;
 }
 
-/// The state that an isentrope from (rho, e) has at `end` [kg/m^3], and the speed gained: Runge and Kutta's fourth order, in ln rho.
+/// The state that an isentrope from (rho, e) has at `end` [kg/m^3], and the speed gained: Runge and Kutta's fourth
+/// order, in ln rho.
 struct Simple {
   double energy, speed;
 };

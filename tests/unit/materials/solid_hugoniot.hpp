@@ -21,8 +21,8 @@ inline double hugoniot_pressure(const Solid& solid, double u) {
   return evaluate(solid.pressure, solid.rho0, solid.rho0 * low, 0.5 * u * u).pressure;
 }
 
-/// Temperature [K] behind that shock: c dT = -c Gamma T dv/v + de + p dv along the Hugoniot (Walsh and Christian 1955), less the cold
-/// share of the plastic work 2Y/3 |dv|.
+/// Temperature [K] behind that shock: c dT = -c Gamma T dv/v + de + p dv along the Hugoniot (Walsh and Christian
+/// 1955), less the cold share of the plastic work 2Y/3 |dv|.
 inline double hugoniot_temperature(const Solid& solid, double u) {
   const double Y = flow_stress(solid.flow, 0, 0, 293), gamma = *gruneisen(solid.pressure);
   const double v0 = 1 / solid.rho0, last = hugoniot_pressure(solid, u);
@@ -45,7 +45,8 @@ inline double hugoniot_temperature(const Solid& solid, double u) {
   return T;
 }
 
-/// Temperature [K] of a state: that of the isentrope through rest, T_room (rho/rho0)^Gamma, and what the energy [J/kg] is above it.
+/// Temperature [K] of a state: that of the isentrope through rest, T_room (rho/rho0)^Gamma, and what the energy
+/// [J/kg] is above it.
 inline double temperature_of(const Solid& solid, double rho, double energy) {
   const int steps = 2000;
   double cold = 0, at = solid.rho0;
