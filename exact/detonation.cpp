@@ -22,7 +22,7 @@ TaylorWave::TaylorWave(const materials::Jwl& products, int dimension)
   // edge.
   const double last = 1e-9 * front_.particle_speed;
   points_ = integrate<2>(f, front_.particle_speed, last, {front_.detonation_speed, std::log(front_.density)},
-                         {front_.detonation_speed, 1.0}, 1e-11, 0.01 * front_.particle_speed);
+                         {front_.detonation_speed, 1.0}, 1e-11, 0.01 * front_.particle_speed, 100'000);
   core_ = isentrope_.at_density(std::exp(points_.back().y[1]));
 }
 

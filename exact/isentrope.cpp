@@ -21,6 +21,22 @@ double barotropic_energy(const materials::FluidLaw& law, double density, double 
       law);
 }
 
+/// What a stiffened gas has beside its pressure [Pa]; 0 of other laws.
+double inner_pressure(const materials::FluidLaw& law) {
+  const auto* liquid = std::get_if<materials::StiffenedGas>(&law);
+  return liquid != nullptr ? liquid->parameters().p_inf : 0.0;
+}
+
+/// Has the law come to its end: is its sound speed [m/s] held at a guard, since its own is not real, or has its Grueneisen
+/// parameter fallen to zero in tension?
+bool is_beyond(const materials::FluidLaw& law, double density, double sound) {
+  const auto* water = std::get_if<materials::MieGruneisenWater>(&law);
+  if (water == nullptr) return false;
+  const auto& p = water->parameters();
+  const double mu = density / p.rho0 - 1.0;
+  return sound <= 0.1 * p.C0 * (1.0 + 1e-12) || (mu < 0.0 && p.gamma0 > 0.0 && p.gamma0 + p.alpha * mu <= 0.0);
+}
+
 /// Lowest pressure of a law that cavitates; minus infinity of others.
 double floor_pressure(const materials::FluidLaw& law) {
   if (const auto* tait = std::get_if<materials::TaitWater>(&law))
@@ -49,7 +65,14 @@ materials::PressureSound true_pressure_sound(const materials::FluidLaw& law, dou
 Isentrope::Isentrope(const materials::FluidLaw& law, double density, double energy)
     : law_(law), density_(density), energy_(barotropic_energy(law, density, energy)) {
   const double floor = floor_pressure(law_);
-  const double first_sound = true_pressure_sound(law_, density_, energy_).sound_speed;
+  const auto first = true_pressure_sound(law_, density_, energy_);
+  const double first_sound = first.sound_speed;
+  if (!std::isfinite(first.pressure) || !std::isfinite(first_sound) || !std::isfinite(energy_) ||
+      (first_sound <= 0.0 && first.pressure < 0.0)) {
+    std::ostringstream message;
+    message << "the law gives no pressure or sound speed at density " << density_ << " kg/m^3 and energy " << energy_ << " J/kg";
+    throw std::domain_error(message.str());
+  }
   double end = -150.0;  // ln(rho/rho_start), far beyond the end by sound speed of every gas in use
   std::vector<double> stops;
   if (const auto* tait = std::get_if<materials::TaitWater>(&law_)) {
@@ -65,7 +88,14 @@ Isentrope::Isentrope(const materials::FluidLaw& law, double density, double ener
     return;
   }
   stops.push_back(end);
+  if (!(first_sound > 0.0)) return;  // a cold gas does not expand
+  if (is_beyond(law_, density_, first_sound)) {
+    torn_ = true;
+    return;
+  }
 
+  // Near -p_inf the sound speed of a stiffened gas is a difference of large numbers, and no longer known.
+  const double inner = inner_pressure(law_), least_inner = inner > 0.0 ? 1e-6 * (first.pressure + inner) : -1e300;
   const auto f = [this](double s, const OdeState<2>& y) { return slope(s, y); };
   bool finished = false;
   for (const double stop : stops) {
@@ -73,14 +103,17 @@ Isentrope::Isentrope(const materials::FluidLaw& law, double density, double ener
     const bool tait_floor = on_floor_;
     const auto ended = [&](const Point& point) {
       const IsentropeState s = state(point);
-      return s.sound < 1e-7 * first_sound || (!tait_floor && s.pressure <= floor);
+      return s.sound < 1e-7 * first_sound || s.pressure + inner < least_inner || is_beyond(law_, s.density, s.sound) ||
+             (!tait_floor && s.pressure <= floor);
     };
     const Point from = points_.back();
     const auto part = integrate<2>(f, from.s, stop, from.y, {first_sound, 1e-30}, tolerance, 0.5, ended);
     points_.insert(points_.end(), part.begin() + 1, part.end());
     finished = ended(points_.back());
   }
-  if (!on_floor_ && state(points_.back()).pressure <= floor) {
+  if (on_floor_) return;
+  const IsentropeState last = state(points_.back());
+  if (last.pressure <= floor) {
     // The floor was crossed in the last step: the longest step that stays above it.
     on_floor_ = true;
     const double crossed = points_.back().s;
@@ -91,7 +124,23 @@ Isentrope::Isentrope(const materials::FluidLaw& law, double density, double ener
       (state_after(from, middle).pressure > floor ? high : low) = middle;
     OdeState<2> error;
     points_.push_back({high, runge_kutta_step(f, from.s, from.y, high - from.s, error)});
+    return;
   }
+  const bool beyond = is_beyond(law_, last.density, last.sound);
+  if (beyond) points_.pop_back();
+  torn_ = beyond || last.pressure < -1e-12 * density_ * first_sound * first_sound;
+}
+
+bool Isentrope::is_convex_down_to(double density) const {
+  const double slack = 1e-9 * start().sound;
+  double last = start().riemann + start().sound;
+  for (const Point& point : points_) {
+    const IsentropeState s = state(point);
+    if (s.density < density) break;
+    if (s.riemann + s.sound > last + slack) return false;
+    last = s.riemann + s.sound;
+  }
+  return true;
 }
 
 OdeState<2> Isentrope::slope(double s, const OdeState<2>& y) const {
@@ -115,8 +164,9 @@ IsentropeState Isentrope::state_after(const Point& from, double s) const {
 
 double Isentrope::riemann_limit() const {
   const IsentropeState last = end();
-  if (on_floor_ || !(last.pressure > 0.0)) return last.riemann;
-  const double exponent = last.density * last.sound * last.sound / last.pressure;
+  const double pressure = last.pressure + inner_pressure(law_);
+  if (on_floor_ || !(pressure > 0.0)) return last.riemann;
+  const double exponent = last.density * last.sound * last.sound / pressure;
   return exponent > 1.0 ? last.riemann - 2.0 * last.sound / (exponent - 1.0) : last.riemann;
 }
 
@@ -142,8 +192,8 @@ ShockState shock_to(const materials::FluidLaw& law, double density, double energ
     // A void that closes may start from next to nothing.
     if (high > 1e3 * std::max(density, 1e3)) {
       std::ostringstream message;
-      message << "shock_to: the law does not reach " << pressure << " Pa from density " << density << " kg/m^3 and energy "
-              << energy << " J/kg";
+      message << "the law has no shock to " << pressure << " Pa from density " << density << " kg/m^3 and energy " << energy
+              << " J/kg";
       throw std::domain_error(message.str());
     }
   }

@@ -21,7 +21,9 @@ struct IsentropeState {
 /// Expansion from (density, energy), integrated in ln rho by
 ///   de = p/rho dln(rho),  dw = c dln(rho).
 /// It ends where the law's cavitation floor begins (from there on the true sound speed is zero and nothing
-/// more is gained), or where a gas has expanded until its sound speed is 1e-7 of the first.
+/// more is gained), where a gas has expanded until its sound speed is 1e-7 of the first, or where a law that carries tension has
+/// no more of it to give: its sound speed is no longer real. Throws std::domain_error where the law gives no pressure or sound speed
+/// at the start.
 class Isentrope {
  public:
   Isentrope(const materials::FluidLaw& law, double density, double energy);
@@ -29,6 +31,10 @@ class Isentrope {
   IsentropeState end() const { return state(points_.back()); }
   /// Does it end on a cavitation floor (and not in a vacuum)?
   bool ends_on_floor() const { return on_floor_; }
+  /// Does it end where the law does, before a void could open: at the most tension that it can carry?
+  bool ends_before_a_void() const { return torn_; }
+  /// Is it convex from the start to a density [kg/m^3]? Then u + c falls all along the fan, and the fan is the solution.
+  bool is_convex_down_to(double density) const;
   /// The speed gained in the expansion to the very end [m/s], <= 0: for a gas the part beyond end() is that
   /// of the power law p ~ rho^G which the end follows, -2 c/(G - 1).
   double riemann_limit() const;
@@ -48,7 +54,7 @@ class Isentrope {
 
   materials::FluidLaw law_;
   double density_, energy_;
-  bool on_floor_ = false;
+  bool on_floor_ = false, torn_ = false;
   std::vector<Point> points_;
 };
 

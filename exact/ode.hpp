@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace undex::exact {
@@ -49,22 +51,29 @@ struct OdePoint {
   OdeState<N> y;
 };
 
+/// Ten times what the stiffest of the laws here asks for.
+constexpr long usual_most_steps = 1'000'000;
+
 /// Integrates dy/ds = slope(s, y) from `begin` to `end` (either direction) and returns the accepted points,
 /// the two ends included. Each component's error of a step stays below tolerance * max(|y|, scale). After
 /// each step `stop(point)` is asked; the integration ends behind the first point for which it holds. Throws
-/// std::runtime_error when the step has become too small to advance.
-template <std::size_t N, class Slope, class Stop>
+/// std::domain_error where the equation cannot be followed: the step has become too small to advance, or `most_steps`
+/// do not reach the end.
+template <std::size_t N, class Slope, std::predicate<OdePoint<N>> Stop>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
-                                   const OdeState<N>& scale, double tolerance, double largest_step, const Stop& stop) {
+                                   const OdeState<N>& scale, double tolerance, double largest_step, const Stop& stop,
+                                   long most_steps = usual_most_steps) {
   std::vector<OdePoint<N>> points{{begin, start}};
   const double sign = end < begin ? -1.0 : 1.0;
   double h = std::min(largest_step, 1e-4 * std::abs(end - begin));
+  long steps = 0;
   while ((end - points.back().s) * sign > 0.0) {
     const OdePoint<N>& from = points.back();
     const double left = std::abs(end - from.s);
     const bool last = h >= left;
     if (last) h = left;
-    if (from.s + sign * h == from.s) throw std::runtime_error("integrate: the step has become too small");
+    if (!(h > 0.0) || from.s + sign * h == from.s || ++steps > most_steps)
+      throw std::domain_error("the differential equation cannot be followed beyond " + std::to_string(from.s));
     OdeState<N> error{};
     const OdeState<N> y = runge_kutta_step(slope, from.s, from.y, sign * h, error);
     double worst = 0.0;
@@ -83,8 +92,10 @@ std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end,
 
 template <std::size_t N, class Slope>
 std::vector<OdePoint<N>> integrate(const Slope& slope, double begin, double end, const OdeState<N>& start,
-                                   const OdeState<N>& scale, double tolerance, double largest_step) {
-  return integrate(slope, begin, end, start, scale, tolerance, largest_step, [](const OdePoint<N>&) { return false; });
+                                   const OdeState<N>& scale, double tolerance, double largest_step,
+                                   long most_steps = usual_most_steps) {
+  const auto never = [](const OdePoint<N>&) { return false; };
+  return integrate(slope, begin, end, start, scale, tolerance, largest_step, never, most_steps);
 }
 
 }  // namespace undex::exact

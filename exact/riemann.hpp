@@ -4,10 +4,10 @@
 // isentropes and shock states computed from the law). SI units.
 //
 // Barotropic laws have no energy equation: their shocks obey the conditions of mass and momentum only.
-// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less, each stays at its
-// floor and a cavity opens between them, as a vacuum does between two gases. Sides must be convex (the speed
-// u + c rises with compression along the isentrope), as all laws in the library are in the range of the
-// scenes; composite waves are not built.
+// Laws that cavitate have a floor pressure. Where the two sides would have to meet at less than one of these a cavity of that
+// pressure opens between them, as a vacuum does between two gases. A law without a floor carries tension as far as its
+// sound speed is real; what is pulled apart faster has no solution. Sides must be convex in the range of the solution (the speed
+// u + c rises with compression along the isentrope, the speed of a shock with its strength): composite waves are not built.
 #pragma once
 
 #include <optional>
@@ -33,8 +33,9 @@ struct RiemannSample {
 
 class RiemannSolution {
  public:
-  /// Throws std::invalid_argument unless densities are positive, std::domain_error where a law has no such
-  /// shock.
+  /// Throws std::invalid_argument unless densities are positive and velocities finite; std::domain_error, with the reason, where the
+  /// laws have no such solution: a state without pressure or sound speed, a shock beyond the law's range, a tension beyond it, or a
+  /// wave that is not convex.
   RiemannSolution(const RiemannSide& left, const RiemannSide& right);
 
   /// Pressure at the contact [Pa]; with a cavity that on its edges.
@@ -60,6 +61,9 @@ class RiemannSolution {
     double velocity_change, density, energy;  // speed away from the other side that reaching p costs
   };
   Reached reach(int side, double pressure) const;
+  template <class Rising>
+  double crossing(const Rising& excess, double low) const;
+  void expect_convex() const;
 
   RiemannSide side_[2];
   double start_pressure_[2], start_energy_[2];

@@ -222,6 +222,15 @@ void Elements::advance_volume(std::size_t c, double volume, double dt, Work work
         0.5 * old_pressure * old_pressure / (work.intact_before * density * state.bulk_sound * state.bulk_sound);
     work.plastic += (1.0 - work.intact / work.intact_before) * (stored * volume_[c] - 0.5 * old_pressure * opened);
   }
+  const bool broken = work.intact < 1.0;
+  const materials::Warming warming =
+      materials::warming(material_, {.before = volume_[c] / mass,
+                                     .after = volume / mass,
+                                     .energy = energy_[c] / mass,
+                                     .pressure_work = pressure_work / mass,
+                                     .dissipated = viscous_work / mass,
+                                     .parted = materials::is_parted(material_, std::min(old_pressure, pressure), broken)});
+  for (std::size_t q = 8 * c; q < 8 * (c + 1); ++q) temperature_[q] = warming(temperature_[q]);
   pressure_[c] = pressure;
   energy_[c] = other_work + pressure_work;
   volume_[c] = volume;

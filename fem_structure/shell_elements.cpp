@@ -554,12 +554,22 @@ bool ShellElements::advance_pressure(std::size_t c, int layer, double viscous, c
                                              .old_pressure = old_pressure,
                                              .intact = work.intact[layer]},
                                             guess);
-  if (materials::spalls(material_, state.pressure)) {
+  const bool spalled = materials::spalls(material_, state.pressure);
+  if (spalled) {
     std::fill_n(&damage_[at(c, 4 * layer)], 4, materials::failed);
     pressure = 0.0;
   }
   pressure_[k] = pressure;
-  const double pressure_work = -0.5 * (old_pressure + pressure) * swelling;
+  const double pressure_work = -0.5 * (old_pressure + pressure) * swelling, rho0 = material_.rho0;
+  const bool broken = spalled || work.intact[layer] < 1.0;
+  const materials::Warming warming =
+      materials::warming(material_, {.before = old_dilatation / rho0,
+                                     .after = dilatation_[k] / rho0,
+                                     .energy = energy_[k] / rho0,
+                                     .pressure_work = pressure_work / rho0,
+                                     .dissipated = -viscous * swelling / rho0,
+                                     .parted = materials::is_parted(material_, std::min(old_pressure, pressure), broken)});
+  for (std::size_t q = at(c, 4 * layer); q < at(c, 4 * layer) + 4; ++q) temperature_[q] = warming(temperature_[q]);
   energy_[k] = other + pressure_work;
   stored += work.deviatoric[layer] + reference_volume * pressure_work;
   bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;

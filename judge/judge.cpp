@@ -64,8 +64,10 @@ Verdict Judge::verdict(const output::Evidence& evidence) const {
     Verdict verdict = comparison_->judge(scene_, evidence, reference_);
     give_reasons(verdict, comparison_->without_value);
     return verdict;
-  } catch (const std::invalid_argument& mistake) {
+  } catch (const std::logic_error& mistake) {  // of arguments or domains
     return {.metrics = {}, .missing = {{"all", mistake.what()}}};
+  } catch (const NumericalStop& stop) {
+    return {.metrics = {}, .missing = {{"all", std::string("the solution to compare with: ") + stop.what()}}};
   }
 }
 

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
 #include "exact/classical.hpp"
+#include "exact/isentrope.hpp"
 #include "exact/lagrangian_1d.hpp"
 #include "judge/comparisons.hpp"
 #include "run/plane_wave_start.hpp"
+#include "scene/numbers.hpp"
 #include "scene/table_reader.hpp"
 
 namespace undex::judge {
@@ -18,6 +21,56 @@ using output::Series;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
+
+/// The scene along the wave's way, with the plate's wet face at zero and the water below it.
+struct Line {
+  double way;            // sign of the wave's direction
+  double length, front;  // of the water; of the wave's front [m]
+  double plate_mass;     // per area [kg/m^2]
+};
+
+Line line_of(const scene::Scene& scene) {
+  const scene::Start::Wave& wave = scene.start.wave;
+  const auto& plate = std::get<fem::PlateMesh>(scene.structure->mesh);
+  const double way = wave.upward ? 1.0 : -1.0;
+  const double face = wave.upward ? plate.low[wave.axis] : plate.high[wave.axis];
+  const Bounds water = bounds(scene.fluid.bodies[run::wave_body(scene)].shape, scene.fluid.dimension);
+  const double far_end = wave.upward ? water.low[wave.axis] : water.high[wave.axis];
+  return {.way = way,
+          .length = way * (face - far_end),
+          .front = way * (wave.front - face),
+          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
+}
+
+/// The one-dimensional mesh of the water: as fine as the wave asks for, and finer towards a plate that weighs less than little water.
+struct LineMesh {
+  double cells, uniform, last;  // number; width of uniform ones and of that at the plate [m]
+};
+
+LineMesh mesh_of(const Line& line, const exact::PlaneWave& wave, int refinement) {
+  const double cells = refinement * std::ceil(std::max(300.0 * line.length / wave.length(), 100.0));
+  const double uniform = line.length / cells;
+  return {
+      .cells = cells, .uniform = uniform, .last = std::min(uniform, line.plate_mass / wave.rest().density / (40.0 * refinement))};
+}
+
+/// Whether the one-dimensional solution can be computed, beside the run, in minutes.
+void expect_affordable(const scene::TableReader& table, const scene::Scene& scene) {
+  constexpr double most_cells = 1e5, most_work = 3e9;
+  const exact::PlaneWave wave = run::plane_wave(scene);
+  const Line line = line_of(scene);
+  const LineMesh mesh = mesh_of(line, wave, 1);
+  const exact::PlaneWaveState front = wave.front();
+  const double sound =
+      exact::true_pressure_sound(scene.fluid.bodies[run::wave_body(scene)].material.law, front.density, front.energy).sound_speed;
+  const double steps = scene.end_time * std::max(sound, wave.rest_sound()) * front.density / wave.rest().density / mesh.last;
+  if (mesh.cells <= most_cells && mesh.cells * steps <= most_work) return;
+  table.complain("kind", "comparison.kind = \"taylor_plate\": the one-dimensional solution would take " +
+                             scene::rounded(mesh.cells) + " cells and " + scene::rounded(steps) + " steps, for a wave of " +
+                             scene::rounded(wave.length()) + " m (start.decay) in water of " + scene::rounded(line.length) +
+                             " m, and a plate as heavy as " + scene::rounded(line.plate_mass / wave.rest().density) +
+                             " m of it; take a longer wave or a heavier plate, or leave out [comparison]");
+}
 
 /// A plate that a plane wave meets head-on.
 void check(const scene::TableReader& table, const scene::Scene& scene) {
@@ -35,6 +88,11 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
   };
   if (std::any_of(scene.probes.begin(), scene.probes.end(), reads_water))
     table.complain("probe", "comparison.probe must be a structure probe: the plate's velocity is compared");
+  if (!table.report().empty()) return;
+  try {
+    expect_affordable(table, scene);
+  } catch (const SceneError&) {  // no such wave: the start says so itself
+  }
 }
 
 /// Time at which y, above `level` at `from`, first falls through it.
@@ -63,26 +121,6 @@ Fall fall_to_zero(const Series& p, double peak) {
   for (double at = fall_through(p, 0.1 * peak, from); at <= low; at = fall_through(p, 0.1 * peak, std::nextafter(at, forever)))
     high = at;
   return {.t = std::isnan(high) ? low : low + (low - high)};
-}
-
-/// The scene along the wave's way, with the plate's wet face at zero and the water below it.
-struct Line {
-  double way;            // sign of the wave's direction
-  double length, front;  // of the water; of the wave's front [m]
-  double plate_mass;     // per area [kg/m^2]
-};
-
-Line line_of(const scene::Scene& scene) {
-  const scene::Start::Wave& wave = scene.start.wave;
-  const auto& plate = std::get<fem::PlateMesh>(scene.structure->mesh);
-  const double way = wave.upward ? 1.0 : -1.0;
-  const double face = wave.upward ? plate.low[wave.axis] : plate.high[wave.axis];
-  const Bounds water = bounds(scene.fluid.bodies[run::wave_body(scene)].shape, scene.fluid.dimension);
-  const double far_end = wave.upward ? water.low[wave.axis] : water.high[wave.axis];
-  return {.way = way,
-          .length = way * (face - far_end),
-          .front = way * (wave.front - face),
-          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
 }
 
 /// Of the run (pressure of the first wall probe, velocity of the compared one), of the one-dimensional solution (label "_1d"),
@@ -145,13 +183,11 @@ NamedNumbers plate_metrics(const PlateHistories& histories, double mass, double 
 PlateHistories plate_in_one_dimension(const scene::Scene& scene, double end, int refinement) {
   const Line line = line_of(scene);
   const exact::PlaneWave wave = run::plane_wave(scene);
-  // As fine as the wave asks for, and finer towards a plate that weighs less than little water.
-  const int cells = refinement * int(std::ceil(300.0 * line.length / wave.length()));
-  const double uniform = line.length / cells;
-  const double last = std::min(uniform, line.plate_mass / wave.rest().density / (40.0 * refinement));
+  const LineMesh line_mesh = mesh_of(line, wave, refinement);
+  const int cells = int(line_mesh.cells);
   exact::Layer water{
       .law = scene.fluid.bodies[run::wave_body(scene)].material.law, .inner = -line.length, .outer = 0.0, .cells = cells};
-  if (last < 0.99 * uniform) water.ratio = 1.0 / exact::grading(line.length, cells, last);
+  if (line_mesh.last < 0.99 * line_mesh.uniform) water.ratio = 1.0 / exact::grading(line.length, cells, line_mesh.last);
   water.start = [&wave, &line](double x) {
     const exact::PlaneWaveState s = wave.at(line.front - x);
     return exact::StartPoint{s.density, s.velocity, s.energy};

@@ -63,8 +63,10 @@ void describe(Solid& solid, Visit&& visit) {
                    .rule = "none: plastic strain does not break",
                    .values = "{D1 = ..., ...}",
                    .meaning = "Johnson-Cook fracture"});
-  visit(solid.heat_capacity,
-        {.name = "heat_capacity", .unit = "J/kg/K", .range = Range::positive(), .meaning = "of what plastic work heats"});
+  visit(solid.heat_capacity, {.name = "heat_capacity",
+                              .unit = "J/kg/K",
+                              .range = Range::positive(),
+                              .meaning = "of what plastic work heats, and with pressure law \"mie_gruneisen\" shocks"});
   visit(solid.taylor_quinney,
         {.name = "taylor_quinney", .range = Range::between(0, 1), .meaning = "share of the plastic work that heats"});
   visit(solid.T_room, {.name = "T_room", .unit = "K", .range = Range::above(0, 1e4), .meaning = "temperature at the start"});
@@ -90,6 +92,31 @@ inline double carried_pressure(const Solid& solid, double pressure, double damag
 inline PlasticStep radial_return(const Solid& solid, double trial, double plastic_strain, double temperature, double dt) {
   return radial_return(solid.flow, solid.shear_modulus, trial, plastic_strain, temperature, dt);
 }
+
+/// Has matter parted, which carries `pressure` [Pa], and no tension if it is `broken`?
+inline bool is_parted(const Solid& solid, double pressure, bool broken) {
+  return broken ? pressure <= 0.0 : solid.spall && pressure <= -solid.spall->strength;
+}
+
+/// What a step does to the volume of matter.
+struct VolumeStep {
+  double before, after;  ///< specific volume [m^3/kg]
+  double energy;         ///< internal energy before [J/kg]
+  double pressure_work;  ///< done on it by the pressure [J/kg]
+  double dissipated;     ///< what else heats it, plastic work apart: shocks above all [J/kg]
+  bool parted = false;   ///< before or after it (is_parted): its volume is not that of the matter, which does not cool
+};
+/// Temperature [K] after a step from that before it.
+struct Warming {
+  double factor = 1.0, rise = 0.0;
+  double operator()(double temperature) const { return factor * temperature + rise; }
+};
+/// That of the isentrope through the state before the step, and what the energy is above it (docs/equations.md, "Temperature"):
+/// exact for shocks of any number of steps. A pressure law without energy has neither the warmth of compression nor that of
+/// shocks: the temperature is then that of plastic work alone, and unchanged here.
+Warming warming(const Solid& solid, const VolumeStep& step);
+/// Rise [K] by what is dissipated [J/kg] at a constant volume, plastic work apart; none with a pressure law without energy.
+double rise_by(const Solid& solid, double dissipated);
 
 /// Bulk modulus at rest [Pa].
 double bulk_modulus(const Solid& solid);

@@ -33,6 +33,10 @@ SolidPressureSound evaluate(const SolidPressure& law, double rho0, double rho, d
   return std::visit([&](const auto& each) { return evaluate(each, rho0, rho, energy); }, law);
 }
 
+std::optional<double> gruneisen(const SolidPressure& law) {
+  return std::visit([](const auto& each) { return gruneisen(each); }, law);
+}
+
 double bulk_modulus(const SolidPressure& law, double rho0) {
   return std::visit([&](const auto& each) { return bulk_modulus(each, rho0); }, law);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <variant>
 
 #include "core/record.hpp"
@@ -23,6 +24,7 @@ struct LinearPressure {
 };
 SolidPressureSound evaluate(const LinearPressure& law, double rho0, double rho, double energy);
 double bulk_modulus(const LinearPressure& law, double rho0);
+inline std::optional<double> gruneisen(const LinearPressure&) { return std::nullopt; }
 template <class Visit>
 void describe(LinearPressure& law, Visit&& visit) {
   visit(law.bulk_modulus, {.name = "bulk_modulus", .unit = "Pa", .range = Range::positive(), .needed = true, .meaning = "K"});
@@ -40,6 +42,7 @@ struct MieGruneisenPressure {
 };
 SolidPressureSound evaluate(const MieGruneisenPressure& law, double rho0, double rho, double energy);
 double bulk_modulus(const MieGruneisenPressure& law, double rho0);
+inline std::optional<double> gruneisen(const MieGruneisenPressure& law) { return law.Gamma; }
 template <class Visit>
 void describe(MieGruneisenPressure& law, Visit&& visit) {
   visit(law.C, {.name = "C", .unit = "m/s", .range = Range::positive(), .needed = true, .meaning = "bulk sound speed at rest"});
@@ -48,13 +51,15 @@ void describe(MieGruneisenPressure& law, Visit&& visit) {
 }
 
 /// A pressure law of a solid: it has a name and described constants, and answers at density rho [kg/m^3] and specific internal
-/// energy e [J/kg], counted from zero at rest at room temperature; it knows its bulk modulus at rest [Pa].
+/// energy e [J/kg], counted from zero at rest at room temperature; it knows its bulk modulus at rest [Pa] and its constant
+/// Grueneisen parameter [-], none where it does not depend on the energy.
 template <class Law>
 concept IsSolidPressure = Described<Law> && requires(const Law& law, double rho0, double rho, double energy) {
   { Law::name } -> std::convertible_to<const char*>;     // in a scene file
   { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/scene-file.md
   { evaluate(law, rho0, rho, energy) } -> std::same_as<SolidPressureSound>;
   { bulk_modulus(law, rho0) } -> std::same_as<double>;
+  { gruneisen(law) } -> std::same_as<std::optional<double>>;
 };
 template <IsSolidPressure... Laws>
 using SolidPressures = std::variant<Laws...>;
@@ -62,6 +67,7 @@ using SolidPressures = std::variant<Laws...>;
 using SolidPressure = SolidPressures<LinearPressure, MieGruneisenPressure>;
 
 SolidPressureSound evaluate(const SolidPressure& law, double rho0, double rho, double energy);
+std::optional<double> gruneisen(const SolidPressure& law);
 double bulk_modulus(const SolidPressure& law, double rho0);
 
 }  // namespace undex::materials

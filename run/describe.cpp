@@ -54,6 +54,21 @@ std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
   return text + format("  %-16s %10zu particles\n", "walls", fluid.wall_particle_count());
 }
 
+/// What the temperature of solids does not know.
+std::string temperature_notes(const scene::Scene& scene) {
+  std::string text;
+  const auto note = [&](const std::string& name, const materials::Solid& solid) {
+    if (!materials::gruneisen(solid.pressure))
+      text += format(
+          "note: '%s': the pressure law of %s has no energy; its temperature is that of plastic work, without the heat of "
+          "shocks and compression\n",
+          name.c_str(), solid.name.c_str());
+  };
+  if (scene.structure) note(scene.structure->name, scene.structure->material);
+  for (const solid::Body& body : scene.solids.bodies) note(body.name, body.material);
+  return text;
+}
+
 }  // namespace
 
 std::string describe(const scene::Scene& given) {
@@ -82,6 +97,7 @@ std::string describe(const scene::Scene& given) {
     memory += double(body->memory_bytes());
   }
 
+  text += temperature_notes(scene);
   for (const std::string& warning : warnings_of(scene, std::filesystem::path("out") / scene.name))
     text += "warning: " + warning + "\n";
 

@@ -24,7 +24,7 @@ exact::PlaneWave plane_wave(const scene::Scene& scene) {
                                          : body.material.rho0;
   try {
     return {body.material.law, density, energy, wave.peak, wave.decay};
-  } catch (const std::invalid_argument& mistake) {
+  } catch (const std::logic_error& mistake) {  // of arguments, or of the law's domain
     throw SceneError(scene.file.string(), {scene.places.finding("start.kind", "start.kind = \"plane_wave\" in bodies." +
                                                                                   body.name + ": " + mistake.what())});
   }

@@ -102,7 +102,17 @@ void update_stress(const materials::Solid& solid, const BulkViscosity& viscosity
                                   other - 0.5 * (p.pressure[i] + state.pressure) * opened);
     if (fails) p.damage[i] = materials::spalls(solid, state.pressure) ? materials::failed : points.damage[l];
     const double carried = materials::carried_pressure(solid, state.pressure, p.damage[i]);
-    p.energy[i] = other - 0.5 * (p.pressure[i] + carried) * opened;
+    const double pressure_work = -0.5 * (p.pressure[i] + carried) * opened;
+    const bool broken = fails && p.damage[i] >= materials::failed;
+    const materials::Warming warming =
+        materials::warming(solid, {.before = old_volume,
+                                   .after = volume,
+                                   .energy = p.energy[i],
+                                   .pressure_work = pressure_work,
+                                   .dissipated = viscous,
+                                   .parted = materials::is_parted(solid, std::min(p.pressure[i], carried), broken)});
+    p.temperature[i] = warming(p.temperature[i]);
+    p.energy[i] = other + pressure_work;
     p.plastic_energy[i] += plastic;
     p.viscous_energy[i] += viscous;
     p.pressure[i] = carried;

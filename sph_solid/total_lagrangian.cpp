@@ -161,6 +161,7 @@ void TotalLagrangian::update(SolidParticles& p, double dt) {
         const double lost = 0.5 * (stiffness_[i] - softer) * stretched_[i] / p.mass[begin_ + i];
         p.energy[begin_ + i] += lost;
         p.viscous_energy[begin_ + i] += lost;
+        p.temperature[begin_ + i] += materials::rise_by(body_->material, lost);
         stiffness_[i] = softer;
       }
     }

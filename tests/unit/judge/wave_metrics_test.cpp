@@ -5,9 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/errors.hpp"
+#include "exact/classical.hpp"
 #include "judge/free_field.hpp"
 #include "judge/judge.hpp"
 #include "judge/taylor_plate.hpp"
+#include "run/plane_wave_start.hpp"
 
 namespace undex::judge {
 namespace {
@@ -103,6 +106,27 @@ TEST(FreeField, ReferenceIsConverged) {
     RecordProperty("peak_" + std::to_string(k), std::to_string(usual[k]) + " " + std::to_string(fine[k]));
     EXPECT_DOUBLE_EQ(usual[k], wide[k]);
     EXPECT_NEAR(usual[k] / fine[k], 1.0, 0.003);
+  }
+}
+
+/// A wave far longer than the water: its mesh is as fine as the water asks for, and the plate follows Taylor's formula.
+TEST(PlateReference, LongWavesAreResolved) {
+  const scene::Scene scene = scene::read(UNDEX_CASES "/taylor_plate", comparison_kinds(), {{"start.decay", "0.01"}});
+  const Series v = plate_in_one_dimension(scene, 15e-6).velocity;
+  const exact::PlaneWave wave = run::plane_wave(scene);
+  const exact::TaylorPlate theory{.peak = 1e6, .decay = 0.01, .impedance = wave.impedance(), .plate_mass = 2700 * 0.00635};
+  for (const double t : {5e-6, 10e-6, 15e-6}) EXPECT_NEAR(value_at(v, t) / theory.velocity(t), 1.0, 3e-3) << t;
+}
+
+TEST(PlateReference, WhatWouldTakeForeverIsRefusedBeforeTheRun) {
+  for (const auto& [key, value] :
+       {std::pair{"start.decay", "1e-9"}, {"start.decay", "1e-15"}, {"structure.material.rho0", "1e-6"}}) {
+    try {
+      scene::read(UNDEX_CASES "/taylor_plate", comparison_kinds(), {{key, value}});
+      ADD_FAILURE() << key << " = " << value << " is accepted";
+    } catch (const SceneError& refused) {
+      EXPECT_NE(std::string(refused.what()).find("start.decay"), std::string::npos) << refused.what();
+    }
   }
 }
 

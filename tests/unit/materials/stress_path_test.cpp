@@ -94,7 +94,7 @@ End exact_end(const Solid& solid, const Metal& of, double T, double rate, double
     return exact::OdeState<3>{3.0 * (1.0 - share), share, heating * s * share};
   };
   const exact::OdeState<3> start{of.still(start_strain, T) / G, start_strain, T}, scale{1e-4, 1e-3, 100.0};
-  const auto last = exact::integrate<3>(slope, 0.0, strain, start, scale, 1e-9, strain).back().y;
+  const auto last = exact::integrate<3>(slope, 0.0, strain, start, scale, 1e-9, strain, 100'000'000).back().y;
   return {last[0] * G, last[1], last[2]};
 }
 

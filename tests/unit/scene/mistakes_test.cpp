@@ -153,6 +153,17 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "21:12: comparison.solution: \"sedov\" needs two bodies at rest of one ideal gas"},
       {"profile without a charge", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"taylor_wave\"\n",
        "21:12: comparison.solution: \"taylor_wave\" needs one body alone, a charge at rest with a programmed burn\n"},
+      {"profile of a metal that is torn apart",
+       "dimension = 1\nend_time = 1e-6\n[resolution]\nspacing = 1e-3\n"
+       "[materials]\nmetal = {law = \"mie_gruneisen\", rho0 = 2710, C0 = 5300, S1 = 1.5, S2 = 0, S3 = 0, gamma0 = 1.7, alpha = "
+       "0, "
+       "cavitation = \"none\"}\n"
+       "[[bodies]]\nname = \"left\"\nmaterial = \"metal\"\nshape = {type = \"box\", low = 0, high = 0.5}\nvelocity = -6180\n"
+       "[[bodies]]\nname = \"right\"\nmaterial = \"metal\"\nshape = {type = \"box\", low = 0.5, high = 1}\n"
+       "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\n",
+       "18:12: comparison.solution: these bodies have no such solution: the fluids are pulled apart by more than their laws can "
+       "carry, -1.65659e+10 Pa; a law that cavitates has a solution, e.g. with cavitation = \"cutoff\"; change their states or "
+       "laws, or leave out [comparison]\n"},
       {"window the wrong way round", two_gases + "[comparison]\nkind = \"profile\"\nsolution = \"riemann\"\nwindow = [1, 0]\n",
        "22:10: comparison.window must be [least, largest] coordinate in m, the first below the second\n"},
       {"window without a profile", two_gases + "[comparison]\nkind = \"none\"\nwindow = [0, 1]\n",
