@@ -95,16 +95,14 @@ void TotalLagrangian::find_neighbours(std::span<const double> volume, const Soli
                                 "spacings thick: use a finer spacing");
 }
 
-Mat3 TotalLagrangian::gradient_of(const SolidParticles& p, std::uint32_t i, double back, double& stretched) const {
-  const auto place = [&](std::uint32_t k) -> Vec3 {
-    return back == 0.0 ? p.x[begin_ + k] : Vec3(p.x[begin_ + k] - back * p.v[begin_ + k]);
-  };
+template <class Place>
+Mat3 TotalLagrangian::gradient_of(const Place& place, std::uint32_t i, double& stretched) const {
   const Vec3 me = place(i);
   double d[9] = {}, squares = 0;
   for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
     const Neighbour& j = neighbours_[k];
     if (!counts(i, j)) continue;
-    const Vec3 at = place(j.index);
+    const Vec3& at = place(j.index);
     const Image& m = images_[j.image];
     const double x = m.sign[0] * at[0] + m.offset[0] - me[0], y = m.sign[1] * at[1] + m.offset[1] - me[1],
                  z = m.sign[2] * at[2] + m.offset[2] - me[2];
@@ -123,6 +121,21 @@ Mat3 TotalLagrangian::gradient_of(const SolidParticles& p, std::uint32_t i, doub
   return F;
 }
 
+/// Where neighbours have come or gone with a plane's contact, F at the beginning of the step [s] is that of the new ones: what
+/// they change of F is no strain, density goes on, and the zero-energy modes' stored energy that goes with them is booked as
+/// viscous.
+void TotalLagrangian::begin_anew(SolidParticles& p, std::uint32_t i, double dt) {
+  const std::uint32_t a = begin_ + i;
+  double stretched = 0;
+  deformation_[i] = gradient_of([&](std::uint32_t k) -> Vec3 { return p.x[begin_ + k] - dt * p.v[begin_ + k]; }, i, stretched);
+  const double density = p.rho[a] * deformation_[i].determinant();
+  swollen_[i] *= start_density_[i] / density;
+  start_density_[i] = density;
+  const double lost = 0.5 * stiffness_[i] * (stretched_[i] - stretched) / p.mass[a];
+  p.energy[a] += lost;
+  p.viscous_energy[a] += lost;
+}
+
 void TotalLagrangian::update(SolidParticles& p, double dt) {
   follow_contact(p);
   const std::uint32_t n = end_ - begin_;
@@ -135,7 +148,7 @@ void TotalLagrangian::update(SolidParticles& p, double dt) {
     for (std::uint32_t i = first; i < last; ++i) {
       if (!anew_.empty() && anew_[i]) begin_anew(p, i, dt);
       Mat3& F = after[i - first];
-      F = gradient_of(p, i, 0.0, stretched_[i]);
+      F = gradient_of([&](std::uint32_t k) -> const Vec3& { return p.x[begin_ + k]; }, i, stretched_[i]);
       step.append(begin_ + i, deformation_[i], F, start_density_[i] / F.determinant());
     }
     update_stress(body_->material, viscosity_, step, dt, p);

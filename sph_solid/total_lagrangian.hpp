@@ -72,11 +72,13 @@ class TotalLagrangian {
   void find_layers(const Settings& settings, std::span<const OuterLayer> layer, const SolidParticles& particles);
   /// Particles that have begun or ceased to be backed since the last step: their moments.
   void follow_contact(const SolidParticles& particles);
-  /// F of particle i where it was `back` [s] ago on its way of the step, and sum_j s_ij |F X_ij - x_ij|^2.
-  Mat3 gradient_of(const SolidParticles& particles, std::uint32_t i, double back, double& stretched) const;
+  /// F of particle i by the places of all, and sum_j s_ij |F X_ij - x_ij|^2.
+  template <class Place>
+  Mat3 gradient_of(const Place& place, std::uint32_t i, double& stretched) const;
   void begin_anew(SolidParticles& particles, std::uint32_t i, double dt);
   Mat3 moment_of(std::uint32_t i) const;
   bool counts(std::uint32_t i, const Neighbour& j) const {
+    if (j.image == 0) return true;
     const PlaneSet planes = images_[j.image].planes;
     return (planes & backed_[i] & backed_[j.index]) == planes;
   }

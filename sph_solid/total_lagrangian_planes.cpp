@@ -120,19 +120,4 @@ void TotalLagrangian::follow_contact(const SolidParticles& p) {
       }
 }
 
-/// Where neighbours have come or gone with a plane's contact, F at the beginning of the step [s] is that of the new ones: what
-/// they change of F is no strain, density goes on, and the zero-energy modes' stored energy that goes with them is booked as
-/// viscous.
-void TotalLagrangian::begin_anew(SolidParticles& p, std::uint32_t i, double dt) {
-  const std::uint32_t a = begin_ + i;
-  double stretched = 0;
-  deformation_[i] = gradient_of(p, i, dt, stretched);
-  const double density = p.rho[a] * deformation_[i].determinant();
-  swollen_[i] *= start_density_[i] / density;
-  start_density_[i] = density;
-  const double lost = 0.5 * stiffness_[i] * (stretched_[i] - stretched) / p.mass[a];
-  p.energy[a] += lost;
-  p.viscous_energy[a] += lost;
-}
-
 }  // namespace undex::solid
