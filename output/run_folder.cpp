@@ -126,8 +126,10 @@ void begin_run_folder(const fs::path& folder, const std::string& given, const st
 }
 
 void continue_run_folder(const fs::path& folder, const std::string& resolved) {
-  if (text_of(folder / "resolved.toml") != resolved) write_text_atomically(folder / "resolved.toml", resolved);
   std::error_code error;
+  for (const fs::path& path : results_in(folder))  // what a kill left half written
+    if (path.extension() == ".part" && !fs::remove(path, error) && error) throw_not_cleared(path, error);
+  if (text_of(folder / "resolved.toml") != resolved) write_text_atomically(folder / "resolved.toml", resolved);
   for (const char* name : {"summary.json", "evidence.h5"})
     if (fs::remove(folder / name, error); error) throw_not_cleared(folder / name, error);
 }

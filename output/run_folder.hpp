@@ -24,8 +24,8 @@ struct RunFolder {
 /// FileError where the new run's first files cannot be written; the older run is then still whole.
 void begin_run_folder(const std::filesystem::path& folder, const std::string& given, const std::string& resolved);
 
-/// The run of the folder goes on: what says that it has ended goes, and resolved.toml says what is computed now. Throws
-/// FileError.
+/// The run of the folder, which the caller has locked, goes on: what says that it has ended goes, and what was left half written;
+/// resolved.toml says what is computed now. Throws FileError.
 void continue_run_folder(const std::filesystem::path& folder, const std::string& resolved);
 
 /// Does the folder hold a run that has not come to its end: killed, interrupted, failed?

@@ -564,6 +564,14 @@ class Resume(Case):
         times = runs.Table(self.here / "cut/history/added.csv").column("time")
         self.assertGreater(times[0], reached)
 
+    def test_half_written_files_go(self):
+        self.cut()
+        left = [self.here / "cut" / name for name in (".summary.json.123.part", "fields/.structure_00001.hdf.123.part")]
+        for path in left:
+            path.write_bytes(b"half")
+        self.ends(self.undex("resume", "cut", "-q"), 0)
+        self.assertEqual([path for path in left if path.exists()], [])
+
     def test_what_may_not_change(self):
         self.cut()
         for change in ("scheme.courant=0.2", "resolution.spacing=0.005", "bodies.water.pressure=2e5", "start.kind=spherical"):
