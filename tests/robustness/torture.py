@@ -295,6 +295,7 @@ def main():
     parser.add_argument("kind", choices=["kills", "every", "disks", "checkpoints", "scenes"])
     parser.add_argument("--count", type=int, default=COUNT)
     parser.add_argument("--seed", type=int, default=int(time.time()))
+    parser.add_argument("--first", type=int, default=0, help="number of the first, to go on where a round was cut off")
     parser.add_argument("--minutes", type=float, default=1e9, help="begin none after so long")
     arguments = parser.parse_args()
     one = {"kills": Torture.kill, "every": Torture.kill, "disks": Torture.disk, "checkpoints": Torture.checkpoint,
@@ -303,10 +304,11 @@ def main():
     with tempfile.TemporaryDirectory(prefix="undex_torture_") as scratch:
         torture = Torture(arguments, pathlib.Path(scratch))
         if arguments.kind == "every":
-            arguments.count = min(arguments.count, len(torture.scenes)) if arguments.count != COUNT else len(torture.scenes)
+            left = len(torture.scenes) - arguments.first
+            arguments.count = min(arguments.count, left) if arguments.count != COUNT else left
         since = time.monotonic()
         while done < arguments.count and time.monotonic() - since < 60 * arguments.minutes:
-            events += one(torture, done)
+            events += one(torture, arguments.first + done)
             done += 1
         print(f"{arguments.kind}, seed {arguments.seed}: {done} runs, {events} events, {len(torture.failures)} failed"
               + (f"; exit codes {dict(sorted(torture.codes.items()))}" if torture.codes else ""))
