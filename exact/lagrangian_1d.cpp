@@ -128,12 +128,7 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   pressures(n, 0.0, r_, u_, rho_, e_, p_, q_);
   inner_start_pressure_ = p_[0];
   outer_start_pressure_ = p_[n - 1];
-  r_new_ = r_;
-  u_new_ = u_;
-  rho_new_ = rho_;
-  e_new_ = e_;
-  p_new_ = p_;
-  q_new_ = q_;
+  fill_new();
   active_ = n;
   update_active();
 }
@@ -309,6 +304,15 @@ void Lagrangian1D::step(double dt) {
   update_active();
 }
 
+void Lagrangian1D::fill_new() {
+  r_new_ = r_;
+  u_new_ = u_;
+  rho_new_ = rho_;
+  e_new_ = e_;
+  p_new_ = p_;
+  q_new_ = q_;
+}
+
 void Lagrangian1D::update_active() {
   const int n = cells();
   int least = 0;  // cells that are going to burn may light before anything reaches them
@@ -414,12 +418,7 @@ void Lagrangian1D::coarsen(double width) {
   for (auto* field : {&r_, &u_, &node_mass_, &area_}) field->resize(left + 1);
   for (int k = 0; k < left; ++k) rho_[k] = start_density_[k] * (start_volume_[k] / (volume_to(r_[k + 1]) - volume_to(r_[k])));
   pressures(left, time_, r_, u_, rho_, e_, p_, q_);
-  r_new_ = r_;
-  u_new_ = u_;
-  rho_new_ = rho_;
-  e_new_ = e_;
-  p_new_ = p_;
-  q_new_ = q_;
+  fill_new();
 }
 
 double Lagrangian1D::interface_radius(int layer) const { return r_.at(blocks_.at(layer).end); }

@@ -170,6 +170,7 @@ class Lagrangian1D {
   double stable_step() const;
   void step(double dt);
   void update_active();
+  void fill_new();  // all cells of the coming state are those of the present one until a step has reached them
   bool still_burns(int layer) const;
   /// Adds a mass [kg] of that velocity to a node; returns the kinetic energy [J] that is lost.
   double add_to_node(int node, double mass, double velocity);

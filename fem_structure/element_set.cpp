@@ -69,7 +69,6 @@ ElementSet::ElementSet(const Grid& grid, const materials::Solid& material, doubl
 void ElementSet::find_first_steps(const Grid& grid) {
   const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
   const Moduli moduli{material_.rho0 * rest.bulk_sound * rest.bulk_sound, 2.0 * material_.shear_modulus};
-  const double sound = std::sqrt((moduli.bulk + 2.0 / 3.0 * moduli.twice_shear) / material_.rho0);
 #pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     CellVectors x;
@@ -77,7 +76,7 @@ void ElementSet::find_first_steps(const Grid& grid) {
     // A start that no symmetry of the cell can hide from.
     for (int k = 0; k < 24; ++k) mode_[24 * c + k] = std::sin(1.0 + 1.7 * k + 0.31 * k * k);
     find_frequency(c, x, moduli, 400);
-    set_critical_step(c, sound, moduli.bulk);
+    set_critical_step(c, moduli.bulk);
   }
 }
 
@@ -117,10 +116,10 @@ double ElementSet::viscous_pressure(std::size_t c, double rate, double density, 
          (linear_viscosity_ * sound + quadratic_viscosity_ * quadratic_viscosity_ * length * compression_rate_[c]);
 }
 
-void ElementSet::follow_frequency(std::size_t c, const CellVectors& x, double most_strain, double sound, double bulk) {
+void ElementSet::follow_frequency(std::size_t c, const CellVectors& x, double most_strain, double bulk) {
   strain_since_[c] += most_strain;
   if (strain_since_[c] > frequency_strain) find_frequency(c, x, {bulk, 2.0 * material_.shear_modulus}, 20);
-  set_critical_step(c, sound, bulk);
+  set_critical_step(c, bulk);
 }
 
 void ElementSet::linear_force(std::span<const Vec3> positions, std::span<const Vec3> displacements, std::span<Vec3> force) const {
@@ -173,7 +172,7 @@ void ElementSet::find_frequency(std::size_t c, const CellVectors& x, Moduli modu
   for (int k = 0; k < 24; ++k) mode[k] = mode[k] / largest + 0.02 * std::sin(1.0 + 1.7 * k + 0.31 * k * k);
 }
 
-void ElementSet::set_critical_step(std::size_t c, double sound, double bulk) {
+void ElementSet::set_critical_step(std::size_t c, double bulk) {
   const double stiffening = std::max(1.0, std::sqrt(bulk / frequency_bulk_[c]));
   const double frequency = frequency_[c] * stiffening * (1.0 + strain_since_[c]);
   critical_step_[c] = 2.0 / frequency * damped_share(c, compression_rate_[c]);
@@ -210,6 +209,11 @@ double ElementSet::plastic_work() const { return sum(plastic_); }
 double ElementSet::viscous_work() const { return sum(viscous_); }
 
 void ElementSet::visit_state(StateVisitor& state) {
+  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator_[k]);
+  state("plastic strain", plastic_strain_);
+  state("temperature", temperature_);
+  state("damage", damage_);
+  state("weight", weight_);
   state("elastic energy", elastic_);
   state("plastic work", plastic_);
   state("viscous work", viscous_);
@@ -223,8 +227,10 @@ void ElementSet::visit_state(StateVisitor& state) {
 
 std::size_t ElementSet::shared_memory_bytes() const {
   std::size_t values = 0;
-  for (const auto* field : {&elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_, &strain_since_, &compression_rate_,
-                            &critical_step_, &mode_, &cell_mass_, &corner_mass_, &nodal_mass_, &corner_force_})
+  for (const auto& component : deviator_) values += component.size();
+  for (const auto* field :
+       {&plastic_strain_, &temperature_, &damage_, &weight_, &elastic_, &plastic_, &viscous_, &frequency_, &frequency_bulk_,
+        &strain_since_, &compression_rate_, &critical_step_, &mode_, &cell_mass_, &corner_mass_, &nodal_mass_, &corner_force_})
     values += field->size();
   return values * sizeof(double) + cells_.size() * sizeof(cells_[0]) +
          (corners_.size() + corners_begin_.size()) * sizeof(std::size_t);

@@ -79,7 +79,7 @@ class ElementSet {
   double viscous_pressure(std::size_t cell, double rate, double density, double sound);
   /// Stable step after a step of strain `most_strain`: the highest frequency is found anew when the cell has changed,
   /// otherwise enlarged by what the strain since may have done.
-  void follow_frequency(std::size_t cell, const CellVectors& x, double most_strain, double sound, double bulk);
+  void follow_frequency(std::size_t cell, const CellVectors& x, double most_strain, double bulk);
   /// False where a force is not finite.
   bool put_forces(std::size_t cell, const CellVectors& force);
   std::size_t shared_memory_bytes() const;
@@ -87,12 +87,16 @@ class ElementSet {
   materials::Solid material_;
   double linear_viscosity_, quadratic_viscosity_;
   std::vector<std::array<int, 8>> cells_;
+  // State of the points that go through the stress update, eight at a time.
+  std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
+  std::vector<double> plastic_strain_, temperature_, weight_;
+  std::vector<double> damage_;                                ///< empty where the material cannot fail
   std::vector<double> elastic_, plastic_, viscous_;           ///< energies per cell [J]
   std::vector<double> cell_mass_, corner_mass_, nodal_mass_;  ///< [kg]
 
  private:
   void find_frequency(std::size_t cell, const CellVectors& x, Moduli moduli, int most_iterations);
-  void set_critical_step(std::size_t cell, double sound, double bulk);
+  void set_critical_step(std::size_t cell, double bulk);
   /// Share that bulk viscosity leaves of the undamped stable step, at a rate of compression [1/s]: sqrt(1 + xi^2) - xi.
   double damped_share(std::size_t cell, double compression_rate) const;
   void gather(const std::vector<double>& corner_force, std::span<Vec3> force) const;

@@ -237,7 +237,7 @@ void Elements::advance_volume(std::size_t c, double volume, double dt, Work work
   elastic_[c] += work.deviatoric - work.plastic + pressure_work;
   plastic_[c] += work.plastic;
   viscous_[c] += viscous_work;
-  follow_frequency(c, x, work.most_strain, sound, density * state.bulk_sound * state.bulk_sound);
+  follow_frequency(c, x, work.most_strain, density * state.bulk_sound * state.bulk_sound);
 }
 
 void Elements::linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const {
@@ -296,11 +296,6 @@ Mat3 Elements::stress(std::size_t cell, int q) const {
 
 void Elements::visit_state(StateVisitor& state) {
   ElementSet::visit_state(state);
-  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator_[k]);
-  state("plastic strain", plastic_strain_);
-  state("temperature", temperature_);
-  state("damage", damage_);
-  state("weight", weight_);
   state("pressure", pressure_);
   state("energy", energy_);
   state("viscous pressure", viscous_pressure_);
@@ -309,10 +304,7 @@ void Elements::visit_state(StateVisitor& state) {
 
 std::size_t Elements::memory_bytes() const {
   std::size_t values = 0;
-  for (const auto& component : deviator_) values += component.size();
-  for (const auto* field :
-       {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &viscous_pressure_, &energy_, &volume_})
-    values += field->size();
+  for (const auto* field : {&pressure_, &viscous_pressure_, &energy_, &volume_}) values += field->size();
   return shared_memory_bytes() + values * sizeof(double);
 }
 

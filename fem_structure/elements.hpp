@@ -49,11 +49,7 @@ class Elements final : public ElementSet {
   void advance_volume(std::size_t cell, double volume, double dt, Work work, const CellVectors& x);
 
   ReferenceCell reference_;
-  // State, per quadrature point.
-  std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
-  std::vector<double> plastic_strain_, temperature_, weight_;
-  std::vector<double> damage_;  ///< empty where the material cannot fail
-  // State, per cell.
+  // State, per cell; its points are the eight quadrature points.
   std::vector<double> pressure_, viscous_pressure_, energy_, volume_;
 };
 

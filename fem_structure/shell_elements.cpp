@@ -530,7 +530,7 @@ bool ShellElements::advance_layers(std::size_t c, double dt, double amplitude, c
   plastic_[c] += work.plastic;
   viscous_[c] -= 0.5 * (old_viscous + viscous_pressure_[c]) * opened;
   bulk_[c] = bulk;
-  follow_frequency(c, x, work.most_strain, std::sqrt((bulk + 4.0 / 3.0 * shear) / mean_density), bulk);
+  follow_frequency(c, x, work.most_strain, bulk);
   return true;
 }
 
@@ -643,11 +643,6 @@ double ShellElements::pressure(std::size_t cell) const {
 
 void ShellElements::visit_state(StateVisitor& state) {
   ElementSet::visit_state(state);
-  for (int k = 0; k < 6; ++k) state("deviator_" + std::to_string(k), deviator_[k]);
-  state("plastic strain", plastic_strain_);
-  state("temperature", temperature_);
-  state("damage", damage_);
-  state("weight", weight_);
   state("pressure", pressure_);
   state("energy", energy_);
   state("viscous pressure", viscous_pressure_);
@@ -658,10 +653,7 @@ void ShellElements::visit_state(StateVisitor& state) {
 
 std::size_t ShellElements::memory_bytes() const {
   std::size_t values = 0;
-  for (const auto& field : deviator_) values += field.size();
-  for (const auto* field : {&plastic_strain_, &temperature_, &damage_, &weight_, &pressure_, &energy_, &dilatation_,
-                            &viscous_pressure_, &residual_, &bulk_})
-    values += field->size();
+  for (const auto* field : {&pressure_, &energy_, &dilatation_, &viscous_pressure_, &residual_, &bulk_}) values += field->size();
   return shared_memory_bytes() + values * sizeof(double);
 }
 

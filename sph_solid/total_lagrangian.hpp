@@ -29,8 +29,9 @@ namespace undex::solid {
 
 class TotalLagrangian {
  public:
-  /// Finds the neighbours of particles begin..end, whose volumes [m^d] at the start are given. `scale` multiplies volumes'
-  /// smoothing length h [m]. Throws std::invalid_argument where a particle has too few neighbours for a gradient.
+  /// Finds the neighbours of particles begin..end, whose volumes [m^d] at the start are given, within the reach of a kernel of
+  /// smoothing length h [m]; `layer` is the body's towards each rigid plane. Throws std::invalid_argument where a particle has
+  /// too few neighbours for a gradient.
   TotalLagrangian(const Settings& settings, const sph::Settings& around, const Body& body, std::uint32_t begin, std::uint32_t end,
                   double h, double spacing, std::span<const double> volume, std::span<const OuterLayer> layer,
                   const SolidParticles& particles);

@@ -211,11 +211,13 @@ class Torture:
             how = self.random.choice(["number", "number", "scale", "scale", "value", "swap", "drop", "repeat", "bytes", "cut"])
             if how in ("number", "scale") and numbers:
                 found = self.random.choice(numbers)
-                new = self.random.choice(VALUES[:14]) if how == "number" else f"{float(found.group()) * 10 ** self.random.uniform(-4, 4):.4g}"
+                scaled = float(found.group()) * 10 ** self.random.uniform(-4, 4)
+                new = self.random.choice(VALUES[:14]) if how == "number" else f"{scaled:.4g}"
                 text = text[:found.start()] + new + text[found.end():]
             elif how == "bytes":
                 at = self.random.randrange(len(text) + 1)
-                text = text[:at] + self.random.choice(["\0", '"', "[", "}", "=", "\n", "é", "#", ",", "-", "."]) + text[at + self.random.choice([0, 1]):]
+                new = self.random.choice(["\0", '"', "[", "}", "=", "\n", "é", "#", ",", "-", "."])
+                text = text[:at] + new + text[at + self.random.choice([0, 1]):]
             elif how == "cut":
                 text = text[:self.random.randrange(len(text) + 1)]
             else:

@@ -354,7 +354,9 @@ TEST(Lagrangian1DTest, CoarseningKeepsMassMomentumAndEnergy) {
     const IntervalIntegral after = merged.integral(-10, 10);
     EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-13);
     EXPECT_NEAR(after.volume / before.volume, 1.0, 1e-13);
-    if (dimension == 1) EXPECT_NEAR(after.momentum, before.momentum, 1e-12 * std::sqrt(2 * before.kinetic_energy * before.mass));
+    if (dimension == 1) {
+      EXPECT_NEAR(after.momentum, before.momentum, 1e-12 * std::sqrt(2 * before.kinetic_energy * before.mass));
+    }
     EXPECT_NEAR(merged.total_energy() / energy, 1.0, 1e-13);
     EXPECT_NEAR(merged.interface_radius(0), fine.interface_radius(0), 0.0);
     for (auto* flow : {&fine, &merged}) flow->advance(0.08);
