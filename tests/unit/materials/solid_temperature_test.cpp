@@ -39,7 +39,9 @@ TEST(SolidTemperature, IsentropicCompressionWarmsByTheGrueneisenParameter) {
     const double next = isentropic(metal, volume(k + 1));
     T = after_step(metal, T, volume(k), volume(k + 1), e, next - e);
     e = next;
-    if (k == steps - 1) EXPECT_NEAR(T, cold, 0.1);
+    if (k == steps - 1) {
+      EXPECT_NEAR(T, cold, 0.1);
+    }
   }
   EXPECT_NEAR(T, 293, 0.1);
 }

@@ -143,5 +143,26 @@ TEST_P(Planes, NothingPassesAMirrorInAStrongShock) {
   }
 }
 
+TEST_P(Planes, NoStepCarriesAParticleThroughAPlane) {
+  // A blow that the step did not foresee: twice the wave speed, straight at the planes.
+  Strip strip(GetParam(), 0.004);
+  strip.solids.bodies[0].velocity = Vec3::Zero();
+  strip.around.symmetry.axis[1] = true;
+  strip.solids.planes = {{1, 0.002, false}};
+  const auto run = std::make_unique<Solids>(strip.solids, strip.around);
+  std::vector<Vec3> impulse(run->particle_count(), Vec3::Zero());
+  for (std::size_t i = 0; i < impulse.size(); ++i) {
+    const Vec3& x = run->positions()[i];
+    if (std::abs(x[0] - 0.002) > 0.6 * dx || std::abs(x[1] - 0.001) < 0.001 - 0.6 * dx) continue;
+    impulse[i][1] = run->masses()[i] * (x[1] < 0.001 ? -12e3 : 12e3);
+  }
+  run->kick(impulse);
+  run->advance(run->stable_step());
+  for (const Vec3& x : run->positions()) {
+    EXPECT_GT(x[1], 0.0);
+    EXPECT_LT(x[1], 0.002);
+  }
+}
+
 }  // namespace
 }  // namespace undex::solid
