@@ -101,7 +101,9 @@ int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, cons
   if (result.failure) std::rethrow_exception(result.failure);  // the record is kept all the same
   if (!result.not_saved.empty()) throw FileError(result.not_saved);
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
-  return result.signal == 0 ? exit_done : 128 + result.signal;
+  if (result.signal == 0) return exit_done;
+  std::fprintf(stderr, "interrupted by %s; to go on: undex resume %s\n", result.record.message.c_str(), options.output.c_str());
+  return 128 + result.signal;
 }
 
 template <class Set>

@@ -442,7 +442,7 @@ class Signals(Case):
             self.wait_for_steps(process, 5)
             process.send_signal(number)
             process.stdout.read()
-            process.stderr.read()
+            self.said = process.stderr.read()
             return process.wait(timeout=120)
 
     def test_interrupt(self):
@@ -452,6 +452,7 @@ class Signals(Case):
 
     def test_terminate(self):
         self.assertEqual(self.signalled(signal.SIGTERM), 143)
+        self.assertIn("interrupted by SIGTERM; to go on: undex resume out", self.said)
         self.interrupted_record(self.here / "out", "interrupted", "SIGTERM")
 
     def test_every_signal_that_asks_for_an_end(self):
