@@ -74,7 +74,8 @@ class ShellElements final : public ElementSet {
   int through_;
   std::vector<double> layer_zeta_, layer_weight_;  ///< [2 batches_]; the weight of an empty layer is zero
 
-  // Points: 8 batches_ a cell. State, per layer: 2 batches_ a cell. Energy per reference volume [J/m^3], volume over reference volume.
+  // Points: 8 batches_ a cell. State, per layer: 2 batches_ a cell. Energy per reference volume [J/m^3], volume over the
+  // reference volume.
   std::vector<double> pressure_, energy_, dilatation_;
   // State, per cell. Residual of the enhanced strain [J], bulk modulus [Pa].
   std::vector<double> viscous_pressure_, residual_, bulk_;
