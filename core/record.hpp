@@ -35,6 +35,7 @@ enum class Form {
   scene_axis,  ///< the same, and the scene must have it
   along,       ///< a coordinate along Key::axis, which means nothing where the scene has no such axis
   across,      ///< a point whose coordinate along Key::axis means nothing
+  height,      ///< a point, or a number where only the coordinate along gravity counts and gravity is along an axis
   turn,        ///< axis times angle: a vector in three dimensions, a number in two, where only z is left to turn about
 };
 

@@ -24,6 +24,7 @@ struct Node {
   Where where;                 ///< of the value in the file
   std::string origin;          ///< "-P key" where the command line gave it, else empty
 
+  bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
   const Node* find(std::string_view key) const;
   Node* find(std::string_view key);
   /// What it is, in a user's words: "text \"2mm\"", "the number 3", "a table".

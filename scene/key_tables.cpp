@@ -56,6 +56,7 @@ std::string values_of(const Key& key, const int&) {
 }
 std::string values_of(const Key& key, const double&) { return in_words(key.range); }
 std::string values_of(const Key& key, const Vec3&) {
+  if (key.form == Form::height) return "position; a number: along `gravity`";
   if (key.form == Form::turn) return "vector; in 2D a number, about z";
   return key.range.is_endless() ? "vector" : "position";
 }

@@ -81,6 +81,19 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
   return std::max(1.5 * spacing, std::min(6.0 * spacing, way / 12.0));
 }
 
+/// A level that is given as a number: the coordinate along gravity.
+void read_level(const TableReader& table, const Vec3& gravity, sph::Body& body) {
+  if (!table.has("level") || !table.find("level")->is_number()) return;
+  double height = 0;
+  if (!table.read("level", height)) return;
+  body.level = Vec3::Zero();
+  Eigen::Index axis = 0;
+  if (gravity.cwiseAbs().maxCoeff(&axis) == gravity.cwiseAbs().sum()) (*body.level)[axis] = height;
+  else
+    table.complain("level", table.path_of("level") + " = " + shortest(height) +
+                                ": a number is a coordinate along gravity, which is along no axis here; give a point");
+}
+
 /// Where the body has its pressure under gravity, can it have the pressures above and below?
 void check_level(const TableReader& table, const Draft& draft, bool shape_good, const sph::Body& body) {
   if (!body.level) return;
@@ -181,6 +194,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   const bool material_good = material && read_fluid_material(*material, table.path_of("material"), draft, body.material);
   body.variable_h = material_good && is_gas(body.material.law);
   read_fields(table, body);
+  read_level(table, draft.scene.fluid.gravity, body);
   if (const Node* shape = table.find("shape"))
     shape_good = read_shape(*shape, table.path_of("shape"), table.dimension(), shape_names(), report, body.shape.base);
   read_subtractions(table, draft, index, body.shape.removed);

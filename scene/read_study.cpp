@@ -50,8 +50,6 @@ std::set<std::string> keys_of(const StudyAxis& axis) {
   return keys;
 }
 
-bool is_number(const Node& node) { return node.kind == Node::Kind::integer || node.kind == Node::Kind::number; }
-
 /// Numbers as people write them: 0.0005, not the shorter 5e-04.
 std::string label_of(const Node& node) {
   if (node.kind == Node::Kind::text) return node.text;
@@ -98,7 +96,7 @@ void read_values(const TableReader& table, const std::string& key, StudyAxis& ax
       continue;
     }
     StudyValue value{labels.empty() ? label_of(item) : labels[i], {{key, toml_value(item)}}, {}};
-    if (is_number(item)) value.number = item.number;
+    if (item.is_number()) value.number = item.number;
     axis.values.push_back(value);
     places.push_back({item.where});
   }
@@ -278,7 +276,7 @@ std::set<std::size_t> excluded_values(const Entry& entry, const StudyAxis& axis,
   for (const Node& wanted : list ? entry.node.items : std::vector<Node>{entry.node}) {
     bool found = false;
     for (std::size_t v = 0; v < axis.values.size(); ++v)
-      if (axis.values[v].label == label_of(wanted) || (is_number(wanted) && axis.values[v].number == wanted.number)) {
+      if (axis.values[v].label == label_of(wanted) || (wanted.is_number() && axis.values[v].number == wanted.number)) {
         result.insert(v);
         found = true;
       }

@@ -10,8 +10,6 @@
 namespace undex::scene {
 namespace {
 
-bool is_number(const Node& node) { return node.kind == Node::Kind::integer || node.kind == Node::Kind::number; }
-
 /// Where a key that is misplaced would belong: "[scheme]".
 std::string home_of(const std::string& key) {
   for (const char* name : {"resolution", "symmetry", "scheme", "coupling", "output", "comparison", "structure", "solid_scheme"})
@@ -94,7 +92,7 @@ bool TableReader::in_range(const char* key, const Node& at, double value) const 
 bool TableReader::read(const char* key, double& into) const {
   const Node* found = find(key);
   if (!found) return false;
-  if (!is_number(*found)) {
+  if (!found->is_number()) {
     const std::string unit = section_.find(key)->unit;
     wrong_type(key, *found, "a number" + (unit.empty() ? "" : " in " + unit));
     return false;
@@ -114,7 +112,7 @@ bool TableReader::read(const char* key, std::optional<double>& into) const {
 bool TableReader::read(const char* key, int& into) const {
   const Node* found = find(key);
   if (!found) return false;
-  const bool whole = is_number(*found) && std::floor(found->number) == found->number;
+  const bool whole = found->is_number() && std::floor(found->number) == found->number;
   if (!whole) {
     wrong_type(key, *found, "a whole number");
     return false;
@@ -156,7 +154,7 @@ bool TableReader::read(const char* key, std::vector<double>& into) const {
   }
   std::vector<double> values;
   for (const Node& item : found->items) {
-    if (!is_number(item)) {
+    if (!item.is_number()) {
       wrong_type(key, item, "an array of numbers");
       return false;
     }
@@ -189,7 +187,7 @@ bool TableReader::read(const char* key, std::vector<std::string>& into) const {
 bool TableReader::read(const char* key, Vec3& into) const {
   const Node* found = find(key);
   if (!found) return false;
-  if (dimension_ == 1 && is_number(*found)) {
+  if (dimension_ == 1 && found->is_number()) {
     if (!in_range(key, *found, found->number)) return false;
     into = Vec3(found->number, 0, 0);
     return true;
@@ -206,7 +204,7 @@ bool TableReader::read(const char* key, Vec3& into) const {
   Vec3 value = Vec3::Zero();
   for (std::size_t a = 0; a < found->items.size(); ++a) {
     const Node& item = found->items[a];
-    if (!is_number(item)) {
+    if (!item.is_number()) {
       wrong_type(key, item, wanted);
       return false;
     }

@@ -182,6 +182,7 @@ void describe(Body& body, Visit&& visit) {
          .unit = "m",
          .range = Range::position(),
          .rule = "none: uniform",
+         .form = Form::height,
          .meaning = "with `gravity`: where the body has `pressure`; above and below it the start is hydrostatic, dp = rho "
                     "g . dx, at uniform energy"});
   visit(body.density, {.name = "density",

@@ -161,6 +161,12 @@ TEST(Geometry, Gravity) {
   EXPECT_EQ(scene.fluid.gravity, undex::Vec3(0, -9.81, 0));
   ASSERT_TRUE(scene.fluid.bodies[0].level);
   EXPECT_EQ(*scene.fluid.bodies[0].level, undex::Vec3(0, 1, 0));
+  EXPECT_EQ(*read_text(with(pool, "level = [0, 1]", "level = 1.5")).fluid.bodies[0].level, undex::Vec3(0, 1.5, 0));
+  expect(with(with(pool, "level = [0, 1]", "level = 1.5"), "gravity = [0, -9.81]", "gravity = [1, -9.81]"),
+         "11:9: bodies.water.level = 1.5: a number is a coordinate along gravity, which is along no axis here; give a point");
+  expect(with(with(pool, "level = [0, 1]", "level = 1"), "gravity = [0, -9.81]\n", ""),
+         "10:9: bodies.water.level means nothing without gravity");
+  expect(with(pool, "level = [0, 1]", "level = inf"), "11:9: ");
   expect(with(pool, "gravity = [0, -9.81]\n", ""), "10:9: bodies.water.level means nothing without gravity");
   expect(with(pool, "pressure = 1e5\n", ""), "10:9: bodies.water.level is where the body has its pressure: give pressure");
   expect(with(pool, "level = [0, 1]", "level = [0, -20]"),
