@@ -52,10 +52,10 @@ function(undex_test name)
     PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
 endfunction()
 
-# undex_script_tests(script prefix label): one ctest entry per run of a Python script that lists its runs with --names and takes
+# undex_script_tests(script prefix labels): one ctest entry per run of a Python script that lists its runs with --names and takes
 # the program, the folder of scenes and a name.
 # Debian's own Python has the h5py that opens the field files; another one may not.
-function(undex_script_tests script prefix label)
+function(undex_script_tests script prefix labels)
   find_program(UNDEX_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
   find_program(UNDEX_PYTHON python3 REQUIRED)
   set(script ${CMAKE_CURRENT_SOURCE_DIR}/${script})
@@ -65,7 +65,7 @@ function(undex_script_tests script prefix label)
   string(REPLACE "\n" ";" names "${names}")
   foreach(name IN LISTS names)
     add_test(NAME ${prefix}.${name} COMMAND ${UNDEX_PYTHON} ${script} $<TARGET_FILE:undex> ${PROJECT_SOURCE_DIR}/cases ${name})
-    set_tests_properties(${prefix}.${name} PROPERTIES LABELS ${label} TIMEOUT 600 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+    set_tests_properties(${prefix}.${name} PROPERTIES LABELS "${labels}" TIMEOUT 600 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
   endforeach()
 endfunction()
 

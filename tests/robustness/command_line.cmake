@@ -9,5 +9,6 @@ string(REPLACE "\n" ";" names "${names}")
 foreach(name IN LISTS names)
   add_test(NAME command_line.${name} COMMAND ${UNDEX_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/command_line.py
     $<TARGET_FILE:undex> ${PROJECT_SOURCE_DIR}/cases ${name})
-  set_tests_properties(command_line.${name} PROPERTIES LABELS robustness TIMEOUT 600 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+  set_tests_properties(command_line.${name} PROPERTIES LABELS robustness TIMEOUT 600
+    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;UNDEX_SANITIZE=${UNDEX_SANITIZE}")
 endforeach()
