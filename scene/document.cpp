@@ -187,8 +187,18 @@ std::string toml_value(const Node& node) {
 
 Node parse_toml(std::string_view text, const std::string& file) {
   expect_text(text, file);
+  // toml++ reads numbers through a stream, which swallows that memory has run out: then the number is none. A mistake of the
+  // text is one twice.
+  const auto parsed = [&] { return toml::parse(text, std::string_view(file)); };
+  const auto parsed_surely = [&] {
+    try {
+      return parsed();
+    } catch (const toml::parse_error&) {
+      return parsed();
+    }
+  };
   try {
-    Node root = converted(toml::parse(text, std::string_view(file)));
+    Node root = converted(parsed_surely());
     root.where = {1, 1};
     return root;
   } catch (const toml::parse_error& error) {

@@ -3,7 +3,8 @@
 
     out_of_memory.py PROGRAM CASES_FOLDER LIBRARY [tries a scene and way of failing]
 
-LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run.
+LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run,
+which ones UNDEX_SEED says (default: 1).
 """
 import json
 import os
@@ -54,7 +55,7 @@ def wrong(code, said, status):
 
 def main(program, cases, library, tries):
     mistakes, recorded = [], 0
-    chance = random.Random(1)
+    chance = random.Random(int(os.environ.get("UNDEX_SEED", "1")))
     with tempfile.TemporaryDirectory(prefix="undex_memory_") as here:
         for name, (case, *changes) in SCENES.items():
             scene, folder, counted = [cases / case, *changes], pathlib.Path(here) / "run", pathlib.Path(here) / "count"
