@@ -42,14 +42,24 @@ function(undex_module name)
   target_precompile_headers(undex_${name} REUSE_FROM undex_headers)
 endfunction()
 
-# undex_test(name LIBS libs... SOURCES files...): one GoogleTest executable, one ctest entry per test case.
+# undex_test(name LIBS libs... SOURCES files... [SHARDS n]): one GoogleTest executable, one ctest entry per test case; or n entries
+# that share the cases, for programs with deal.II, whose 200 libraries take half a second to load.
 function(undex_test name)
-  cmake_parse_arguments(ARG "" "" "LIBS;SOURCES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "LIBS;SOURCES;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE undex_rules ${ARG_LIBS} GTest::gtest_main)
   target_precompile_headers(test_${name} REUSE_FROM undex_test_headers)
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+  if(NOT ARG_SHARDS)
+    gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")
+    return()
+  endif()
+  math(EXPR last "${ARG_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${name}.shard_${shard} COMMAND test_${name})
+    set_tests_properties(${name}.shard_${shard} PROPERTIES TIMEOUT 900 LABELS "${ARG_LABELS}"
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
 
 # undex_script_tests(script prefix labels): one ctest entry per run of a Python script that lists its runs with --names and takes
