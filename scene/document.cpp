@@ -188,8 +188,8 @@ std::string toml_value(const Node& node) {
 Node parse_toml(std::string_view text, const std::string& file) {
   expect_text(text, file);
   // toml++ reads numbers through a stream, which swallows that memory has run out: then the number is none. A mistake of the
-  // text is one twice.
-  const auto parsed = [&] { return toml::parse(text, std::string_view(file)); };
+  // text is one twice. Given the file's name, it would keep it where it may not throw.
+  const auto parsed = [&] { return toml::parse(text); };
   const auto parsed_surely = [&] {
     try {
       return parsed();
