@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace undex {
 namespace {
@@ -119,8 +120,13 @@ Bounds common(const Bounds& a, const Bounds& b) { return {a.low.cwiseMax(b.low),
 
 bool is_axis_aligned(const Primitive& shape) { return std::holds_alternative<Box>(shape) || std::holds_alternative<Slab>(shape); }
 
+/// What a cell about a place counts beside its content: 1, or the length of the circle that the place runs round the axis.
+using Way = double (*)(const Vec3&);
+double once(const Vec3&) { return 1.0; }
+double round_the_axis(const Vec3& x) { return 2.0 * std::numbers::pi * x[0]; }
+
 /// Exact volume of boxes and slabs less boxes and slabs: the window is cut along every face, each piece is in or out.
-double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension) {
+double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension, Way weight) {
   std::array<std::vector<double>, 3> cuts;
   for (int a = 0; a < 3; ++a) cuts[a] = {a < dimension ? window.low[a] : 0, a < dimension ? window.high[a] : 1};
   for (const Primitive& removed : shape.removed) {
@@ -135,7 +141,8 @@ double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension) 
     for (std::size_t j = 0; j + 1 < cuts[1].size(); ++j)
       for (std::size_t k = 0; k + 1 < cuts[2].size(); ++k) {
         const Vec3 low(cuts[0][i], cuts[1][j], cuts[2][k]), high(cuts[0][i + 1], cuts[1][j + 1], cuts[2][k + 1]);
-        if (signed_distance(shape, 0.5 * low + 0.5 * high, dimension) < 0) total += (high - low).prod();
+        if (signed_distance(shape, 0.5 * low + 0.5 * high, dimension) < 0)
+          total += (high - low).prod() * weight(0.5 * (low + high));
       }
   return total;
 }
@@ -204,23 +211,25 @@ Vec3 middle(const Primitive& shape, int dimension) {
   return center;
 }
 
+namespace {
+
 // Cells that the surface may cross are halved level by level. Each level gives an estimate with an error of second order
 // in the cell size (curvature of the surface, edges), so two levels are extrapolated; it ends when that has settled.
-double volume(const Shape& shape, const Bounds& given_window, int dimension) {
+double volume(const Shape& shape, const Bounds& given_window, int dimension, Way weight) {
   assert(dimension >= 1 && dimension <= 3);
   const Bounds window = common(given_window, bounds(shape, dimension));
   for (int a = 0; a < dimension; ++a)
     if (!(window.low[a] < window.high[a])) return 0;
   if (is_axis_aligned(shape.base) && shape.removed.size() <= 40 &&
       std::all_of(shape.removed.begin(), shape.removed.end(), is_axis_aligned))
-    return volume_of_boxes(shape, window, dimension);
+    return volume_of_boxes(shape, window, dimension, weight);
 
   // A wall may be thinner than any cell that can be afforded: take it as the difference of two solid cylinders.
   if (const auto* tube = std::get_if<TubeShape>(&shape.base); tube && tube->inner > 0 && has_radius(tube->axis, dimension)) {
     const auto solid = [&](double radius) {
       return volume({Cylinder{.axis = tube->axis, .center = tube->center, .radius = radius, .low = tube->low, .high = tube->high},
                      shape.removed},
-                    window, dimension);
+                    window, dimension, weight);
     };
     return std::max(solid(tube->outer) - solid(tube->inner), 0.0);
   }
@@ -257,10 +266,10 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension) {
             const double distance = signed_distance(shape, x, dimension);
             if (distance >= reach) continue;
             if (distance <= -reach) {
-              inside += cell_volume;
+              inside += cell_volume * weight(x);
               continue;
             }
-            estimate += cell_volume * share(shape, x, cell, distance, dimension);
+            estimate += cell_volume * weight(x) * share(shape, x, cell, distance, dimension);
             finer.push_back(x);
           }
     crossed.swap(finer);
@@ -274,6 +283,16 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension) {
     if ((steady && all_halved) || crossed.size() * (std::size_t{1} << dimension) > most_cells) break;
   }
   return std::max(last_extrapolated, 0.0);
+}
+
+}  // namespace
+
+double volume(const Shape& shape, const Bounds& window, int dimension) { return volume(shape, window, dimension, once); }
+
+double volume_of_revolution(const Shape& shape, const Bounds& window) {
+  Bounds right = window;
+  right.low[0] = std::max(right.low[0], 0.0);
+  return volume(shape, right, 2, round_the_axis);
 }
 
 }  // namespace undex

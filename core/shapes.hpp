@@ -163,5 +163,7 @@ Vec3 middle(const Primitive& shape, int dimension);
 /// Volume [m^3] (area [m^2] in 2D, length [m] in 1D) of the part of `shape` inside `window`, to about 1e-5 relative,
 /// by recursive subdivision of the window with the signed distance.
 double volume(const Shape& shape, const Bounds& window, int dimension);
+/// The same of the body of revolution about x = 0 of which a shape in two dimensions is the half at x > 0 [m^3].
+double volume_of_revolution(const Shape& shape, const Bounds& window);
 
 }  // namespace undex

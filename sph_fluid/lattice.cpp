@@ -1,6 +1,7 @@
 #include "sph_fluid/lattice.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 
 #include "sph_fluid/lattice_grid.hpp"
@@ -34,12 +35,14 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
   walk(grid, settings, box, [&](const Vec3& x, double cell_volume) {
     if (signed_distance(shape, x, settings.dimension) >= 0.0) return;
     out.position.push_back(x);
-    out.volume.push_back(cell_volume);
-    sum += cell_volume;
+    out.volume.push_back(settings.axisymmetric ? 2.0 * std::numbers::pi * x[0] * cell_volume : cell_volume);
+    sum += out.volume.back();
   });
   if (out.position.empty())
     throw std::invalid_argument(who + " gets no particle: it is smaller than the spacing or lies outside the kept part");
-  const double scale = volume(shape, kept_window(settings, box), settings.dimension) / sum;
+  const Bounds kept = kept_window(settings, box);
+  const double scale =
+      (settings.axisymmetric ? volume_of_revolution(shape, kept) : volume(shape, kept, settings.dimension)) / sum;
   for (double& cell_volume : out.volume) cell_volume *= scale;
   return out;
 }

@@ -354,6 +354,9 @@ void describe(Numerics& numerics, Visit&& visit) {
 
 struct Settings {
   int dimension = 3;
+  /// Two dimensions as the meridian of bodies of revolution: x is the distance r from the axis, y runs along it, and the plane
+  /// x = 0 is one of symmetry. Masses, energies, forces and impulses are those of the whole ring.
+  bool axisymmetric = false;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]; its image across a symmetry plane is mirrored
   Lattice lattice;
   std::vector<Body> bodies;

@@ -143,14 +143,15 @@ UNDEX_INLINE void for_each_image(const bool mirror[3], const Box3& box, double r
 
 /// The candidates of one cluster in a thread's scratch memory, a vector's worth after the other: each block holds `lanes`
 /// places (relative to an origin), weights, rows, second rows where the pass wants them, and room for what the pairs add to them.
-template <class T, class Second, int sums>
+template <class T, class Second, int sums, bool rings = false>
 class CandidateList {
  public:
   static constexpr int W = lanes<T>, D = lanes<double>;
   static constexpr int row = 8;
   /// Offsets of the parts within a block, and from block to block.
   static constexpr int place = 0, weight = 3 * W, state = 4 * W, second = (4 + row) * W;
-  static constexpr int sum = second + length_of<Second> * W, stride = sum + sums * W;
+  static constexpr int ring = second + length_of<Second> * W, sum = ring + (rings ? length_of<RingRow> * W : 0);
+  static constexpr int stride = sum + sums * W;
   std::uint32_t size = 0;  ///< candidates
 
   explicit CandidateList(Scratch& scratch) : scratch_(scratch) { reserve(64); }

@@ -30,6 +30,11 @@ struct AnyKernel {
       else return kernel.template gradient<T>(inside * inside);
     });
   }
+  template <class T, class V>
+  UNDEX_INLINE V shape_beside(V q, V f) const {
+    const V inside = minimum(q, broadcast(T(support)));
+    return with_kernel(which, [&](auto kernel) UNDEX_LAMBDA_INLINE { return kernel.template shape_beside<T>(inside, f); });
+  }
 };
 
 inline AnyKernel kernel_of(const PairInput& in, const AnyKernel*) { return {in.kernel.name, in.kernel.support, in.kernel.norm}; }
@@ -51,23 +56,29 @@ template <class Kernel, class T>
 struct ConstantH {
   using V = Vec<T>;
   Kernel kernel;
-  T h_, inverse_h, scale, reach2;
+  T h_, inverse_h, scale, reach2, shape_scale;
 
   ConstantH(const Kernel& k, double h, const PairInput& in)
       : kernel(k),
         h_(T(h)),
         inverse_h(T(1.0 / h)),
         scale(T(in.kernel_scale * k.norm(in.dimension) / power(h, in.dimension + 2))),
-        reach2(T(k.support * k.support * h * h)) {}
+        reach2(T(k.support * k.support * h * h)),
+        shape_scale(T(in.shape_scale * k.norm(in.dimension) / power(h, in.dimension))) {}
+  template <bool with_shape>
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T*) const {
     pair.h = broadcast(h_);
     pair.in_reach = pair.r2 < reach2;
+    V q{}, f;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F = keep(pair.in_reach, scale * kernel.template gradient_of_root<T>(s2 * reciprocal_sqrt(s2) * inverse_h));
+      q = s2 * reciprocal_sqrt(s2) * inverse_h;
+      f = kernel.template gradient_of_root<T>(q);
     } else {
-      pair.F = keep(pair.in_reach, scale * kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h)));
+      f = kernel.template gradient<T>(pair.r2 * (inverse_h * inverse_h));
     }
+    pair.F = keep(pair.in_reach, scale * f);
+    if constexpr (with_shape) pair.W = keep(pair.in_reach, shape_scale * kernel.template shape_beside<T>(q, f));
   }
 };
 
@@ -76,11 +87,16 @@ template <class Kernel, class T>
 struct PairH {
   using V = Vec<T>;
   Kernel kernel;
-  T h_i, norm;
+  T h_i, norm, shape_norm;
   int dimension;
 
   PairH(const Kernel& k, double h, const PairInput& in)
-      : kernel(k), h_i(T(h)), norm(T(in.kernel_scale * k.norm(in.dimension))), dimension(in.dimension) {}
+      : kernel(k),
+        h_i(T(h)),
+        norm(T(in.kernel_scale * k.norm(in.dimension))),
+        shape_norm(T(in.shape_scale * k.norm(in.dimension))),
+        dimension(in.dimension) {}
+  template <bool with_shape>
   UNDEX_INLINE void evaluate(Pair<V>& pair, const T* h_j) const {
     const T support = T(kernel.support);
     const V h = T(0.5) * (h_i + load(h_j));
@@ -90,16 +106,18 @@ struct PairH {
     V scale = norm * (inverse_h * inverse_h * inverse_h);
     if (dimension > 1) scale *= inverse_h;
     if (dimension > 2) scale *= inverse_h;
+    V q{}, f;
     if constexpr (Kernel::needs_root) {
       const V s2 = pair.r2 + T(1e-30);
-      pair.F =
-          keep(pair.in_reach,
-               scale * kernel.template gradient_of_root<T>(minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support))));
+      q = minimum(s2 * reciprocal_sqrt(s2) * inverse_h, broadcast(support));
+      f = kernel.template gradient_of_root<T>(q);
     } else {
-      pair.F =
-          keep(pair.in_reach,
-               scale * kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support))));
+      f = kernel.template gradient<T>(minimum(pair.r2 * (inverse_h * inverse_h), broadcast(support * support)));
     }
+    pair.F = keep(pair.in_reach, scale * f);
+    // Rings are in two dimensions.
+    if constexpr (with_shape)
+      pair.W = keep(pair.in_reach, shape_norm * (inverse_h * inverse_h) * kernel.template shape_beside<T>(q, f));
   }
 };
 
@@ -120,7 +138,8 @@ class ClusterWork {
   static constexpr int W = lanes<T>;
   using Second = typename State::Second;
   static constexpr bool with_second = !same_type<Second, NoRow>;
-  using List = CandidateList<T, Second, Pass::symmetric ? Sums::count : 0>;
+  static constexpr bool rings = over_rings<Pass>;
+  using List = CandidateList<T, Second, Pass::symmetric ? Sums::count : 0, rings>;
 
  public:
   ClusterWork(const PairInput& in, const Pass& pass, const Cluster& cluster, Scratch& scratch, const PairOutput& out)
@@ -239,6 +258,7 @@ class ClusterWork {
     if (Pass::symmetric) list_.fill_weights(begin, halves);
     list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
     if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
+    if constexpr (rings) list_.template fill_rows<List::ring>(begin, images ? in_.images.rings : in_.rings, image);
   }
 
   template <class Other, class OtherSums, bool two_sided>
@@ -260,6 +280,7 @@ class ClusterWork {
     State i;
     i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
     if constexpr (with_second) i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
+    if constexpr (rings) i.read_ring([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.rings + me)[k])); });
     const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
             z = broadcast(T(in_.z[me] - origin_[2]));
     constexpr bool wall = same_type<Other, Wall>;
@@ -276,17 +297,19 @@ class ClusterWork {
       j.read([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::state + k * W); });
       if constexpr (with_second && !wall)
         j.read_second([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::second + k * W); });
+      if constexpr (rings && !wall) j.read_ring([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::ring + k * W); });
       pair.dx = x - load(block + List::place);
       pair.dy = y - load(block + List::place + W);
       pair.dz = z - load(block + List::place + 2 * W);
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
-      smoothing.evaluate(pair, block + List::state + 7 * W);
+      smoothing.template evaluate<rings>(pair, block + List::state + 7 * W);
       if constexpr (wall || !Pass::symmetric) {
         met += keep(pair.in_reach, broadcast(T(0.5)));
       } else {
         const V weight = load(block + List::weight);
         met += keep(pair.in_reach, weight);
         pair.F *= weight;
+        if constexpr (rings) pair.W *= weight;
       }
       OtherSums sj;
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sum = load(block + List::sum + k * W); });

@@ -12,7 +12,7 @@ enum class Partners { all, own_body, other_bodies };
 /// Two particles i and j (or i and a wall's particle): d = x_i - x_j, and F = (dW/dr)/r.
 template <class V>
 struct Pair {
-  V dx, dy, dz, r2, h, F;
+  V dx, dy, dz, r2, h, F, W;  ///< W for passes over rings alone
   Mask<Element<V>> in_reach;  ///< within the kernel's support; F is zero elsewhere
   bool gas;                   ///< is one of them gas?
   bool alike;                 ///< are they of one material?
@@ -28,6 +28,17 @@ struct FluidState {
   template <class Read>
   UNDEX_INLINE void read(Read entry) {
     vx = entry(0), vy = entry(1), vz = entry(2), p = entry(3), volume = entry(4), rho = entry(5), c = entry(6);
+  }
+};
+
+/// What a ring reads beside its rows; see RingRow.
+template <class V>
+struct RingState {
+  V a, slope, lent, share;
+
+  template <class Read>
+  UNDEX_INLINE void read_ring(Read entry) {
+    a = entry(0), slope = entry(1), lent = entry(2), share = entry(3);
   }
 };
 

@@ -13,16 +13,17 @@ enum class KernelName { gaussian, wendland_c2, wendland_c4, wendland_c6, cubic_s
 
 /// What a kernel is to the loops over pairs: its support in smoothing lengths, its normalisation, and the slope f of its shape as
 /// a function of q = r/h (`needs_root`) or of q^2, for one number or a vector of them, finite and without branches up to the
-/// support.
+/// support; beside the slope, the shape itself.
 template <class K>
 concept LoopKernel = requires(const K kernel, int dimension, double q) {
   kernel.support* q;
   kernel.norm(dimension) * q;
   requires K::needs_root || requires { K::template gradient<double>(q); };
   requires !K::needs_root || requires { kernel.template gradient_of_root<double>(q); };
+  kernel.template shape_beside<double>(q, q);
 };
 
-/// And to all others: its name and default h/dx in scenes, and its shape w(q), zero beyond the support.
+/// And to all others: its name and default h/dx in scenes, and its shape w(q), zero beyond the support, for one number.
 template <class K>
 concept Kernel = LoopKernel<K> && requires(double q) {
   KernelName(K::which);
@@ -68,6 +69,11 @@ struct Gaussian {
     e = e * e;
     return T(-2) * (e * e);
   }
+  /// The shape where `gradient` is f.
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V, V f) {
+    return T(-0.5) * f - T(0.00012340980408667956);  // exp(-9)
+  }
   static constexpr bool needs_root = false;
 };
 
@@ -91,6 +97,10 @@ struct WendlandC2 {
   static inline __attribute__((always_inline)) V gradient_of_root(V q) {
     const V s = T(1) - T(0.5) * q;
     return T(-5) * (s * s * s);
+  }
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V q, V f) {
+    return f * ((T(1) - T(0.5) * q) * (T(-0.4) * q - T(0.2)));
   }
   static constexpr bool needs_root = true;
 };
@@ -116,6 +126,11 @@ struct WendlandC4 {
     const V s = T(1) - T(0.5) * q, s2 = s * s;
     return s2 * s2 * s * (T(-14.0 / 3.0) - T(35.0 / 3.0) * q);
   }
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V q, V) {
+    const V s = T(1) - T(0.5) * q, s2 = s * s;
+    return s2 * s2 * s2 * ((T(35.0 / 12.0) * q + T(3)) * q + T(1));
+  }
   static constexpr bool needs_root = true;
 };
 
@@ -138,6 +153,11 @@ struct WendlandC6 {
   static inline __attribute__((always_inline)) V gradient_of_root(V q) {
     const V s = T(1) - T(0.5) * q, s2 = s * s;
     return s2 * s2 * s2 * s * (T(-5.5) - q * (T(19.25) + T(22) * q));
+  }
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V q, V) {
+    const V s = T(1) - T(0.5) * q, s2 = s * s, s4 = s2 * s2;
+    return s4 * s4 * (((T(4) * q + T(6.25)) * q + T(4)) * q + T(1));
   }
   static constexpr bool needs_root = true;
 };
@@ -163,6 +183,11 @@ struct CubicSpline {
     const V a = T(2) - q;
     return q < T(1) ? T(2.25) * q - T(3) : T(-0.75) * (a * a) / q;
   }
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V q, V) {
+    const V a = T(2) - q, b = q < T(1) ? T(1) - q : V{};
+    return T(0.25) * (a * a * a) - b * b * b;
+  }
   static constexpr bool needs_root = true;
 };
 
@@ -186,6 +211,12 @@ struct QuinticSpline {
   static inline __attribute__((always_inline)) V gradient_of_root(V q) {
     const V a = T(3) - q, b = q < T(2) ? T(2) - q : V{}, a2 = a * a, b2 = b * b;
     return q < T(1) ? (T(120) - T(50) * q) * (q * q) - T(120) : (T(30) * (b2 * b2) - T(5) * (a2 * a2)) / q;
+  }
+  template <class T, class V>
+  static inline __attribute__((always_inline)) V shape_beside(V q, V) {
+    const V a = T(3) - q, b = q < T(2) ? T(2) - q : V{}, c = q < T(1) ? T(1) - q : V{};
+    const V a2 = a * a, b2 = b * b, c2 = c * c;
+    return a2 * a2 * a - T(6) * (b2 * b2 * b) + T(15) * (c2 * c2 * c);
   }
   static constexpr bool needs_root = true;
 };

@@ -55,6 +55,7 @@ struct ImageInput {
   const double *x, *y, *z;
   const FluidRow* fluid;
   const void* second;  ///< as PairInput has them
+  const RingRow* rings;
 };
 
 /// Up to cluster_size consecutive particles of one row of cells.
@@ -99,6 +100,8 @@ struct PairInput {
   const FluidRow* fluid;
   KernelChoice kernel;          ///< read by the loop that serves any kernel
   void* second;                 ///< what the pass reads beside `fluid`, or a pass before it writes: rows of its State's Second
+  const RingRow* rings;         ///< read by passes over rings
+  double shape_scale;           ///< of the kernel itself for these: 1 over its lattice's sum
   DeformationRow* deformation;  ///< what the solids' gradients write
   double artificial_stress, spacing;  ///< of the solids' forces
   double contact_damping;             ///< share of the acoustic impedance

@@ -4,6 +4,8 @@
 //              read_second(k -> number k of that row)
 //   Wall       the same of a wall's dummy particle, from its WallRow
 //   Sums       what is added up for a particle: `count` numbers, number k by sum or (is_maximum(k)) by maximum; each(visit)
+//   rings      where it is there and true: particles are rings, the state has read_ring(k -> number k of its RingRow), and pairs
+//              have W
 //   partners   whom particles are paired with
 //   symmetric  true: a pair is met once and adds to both sides. False: every particle meets all its neighbours, adds to its own
 //              sums alone, and `store` says what becomes of them
@@ -19,6 +21,12 @@ template <class V>
 struct AnyEntry {
   V operator()(int) const { return V{}; }
 };
+
+/// Does a pass work on rings?
+template <class P>
+inline constexpr bool over_rings = false;
+template <class P>
+requires(P::rings) inline constexpr bool over_rings<P> = true;
 
 template <class P>
 concept PairPass = requires(const P pass, typename P::State i, typename P::Wall wall, typename P::Sums sums,

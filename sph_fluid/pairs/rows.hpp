@@ -15,7 +15,8 @@ enum class SecondRow { none, gradient, corrected, viscosity, solid };
 /// Sign changes of the six numbers (xx, yy, zz, xy, yz, zx) of a symmetric matrix.
 __attribute__((always_inline)) constexpr int parity_of_symmetric(int k) { return k < 3 ? 0 : k == 5 ? 5 : 3 << (k - 3); }
 
-/// What a pair reads of a fluid particle beside its place.
+/// What a pair reads of a fluid particle beside its place. Of a ring, whose place is (r, z, 0), vz is its area in the
+/// meridian [m^2].
 struct alignas(64) FluidRow {
   double vx, vy, vz;  ///< velocity predicted for this evaluation [m/s]
   double p;           ///< [Pa]
@@ -97,6 +98,16 @@ struct SolidRow {
 /// (xx, yy, zz, xy, yz, zx) [-].
 struct DeformationRow {
   double gradient[9], correction[6];
+};
+
+/// What pairs of rings read beside (pairs/ring_kernel.hpp).
+struct RingRow {
+  double a;            ///< [1/m]
+  double slope, lent;  ///< [1/m^2]
+  double share;        ///< of an image: how much of the hoop it has, 0 in a wall along the axis to 1 in one across; of others 1
+
+  using Number = double;
+  UNDEX_ROW_INLINE int parity(int k) { return k == 1 || k == 2 ? 1 : 0; }
 };
 
 /// What the pairs add up for a fluid particle.

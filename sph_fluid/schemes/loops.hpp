@@ -17,7 +17,7 @@ struct PairLoops {
 };
 
 /// The loops of the best instruction set that this machine has; the environment variable UNDEX_CPU_LEVEL (x86-64-v2, -v3,
-/// -v4) asks for a lower one.
-PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision);
+/// -v4) asks for a lower one. `rings`: those over rings about an axis (schemes/rings.hpp).
+PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision, bool rings = false);
 
 }  // namespace undex::sph

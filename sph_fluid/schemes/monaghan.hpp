@@ -22,6 +22,7 @@ struct Monaghan {
   using Sums = FluidSums<V>;
   static constexpr bool symmetric = true;
   static constexpr Partners partners = Partners::all;
+  static constexpr bool by_distances = false;
   T alpha, beta;
 
   explicit Monaghan(const PairInput& in) : alpha(T(in.alpha)), beta(T(in.beta)) {}
@@ -36,9 +37,10 @@ struct Monaghan {
     return product * mu * (2 * beta * mu - alpha * sound) * (inverse * reach);
   }
 
-  /// A pair with its viscosity multiplied by `share`: the force, and what each side takes up of its work.
-  UNDEX_INLINE void exchange(const FluidState<V>& i, const FluidState<V>& j, const Pair<V>& pair, V share, Sums& si,
-                             Sums& sj) const {
+  /// A pair with its viscosity multiplied by `share`: the force, and what each side takes up of its work. Returns p*, which the
+  /// force would have as -2 p* grad W.
+  UNDEX_INLINE V exchange(const FluidState<V>& i, const FluidState<V>& j, const Pair<V>& pair, V share, Sums& si,
+                          Sums& sj) const {
     const V vr = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy + (i.vz - j.vz) * pair.dz;
     V closing;
     const V viscous = share * viscosity(vr, pair, i.c + j.c, i.rho + j.rho, i.rho * j.rho, closing);
@@ -50,6 +52,7 @@ struct Monaghan {
     sj.heat += i.volume * q;
     si.closing = maximum(si.closing, closing);
     sj.closing = maximum(sj.closing, closing);
+    return T(0.5) * (i.p + j.p + viscous);
   }
 
   /// The same against a wall.
@@ -65,8 +68,9 @@ struct Monaghan {
     si.closing = maximum(si.closing, closing);
   }
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    exchange(i, j, pair, broadcast(T(1)), si, sj);
+  UNDEX_INLINE static V filling_share(const State&, const State&) { return broadcast(T(1)); }
+  UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    return exchange(i, j, pair, broadcast(T(1)), si, sj);
   }
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     wall_exchange(i, w, pair, broadcast(T(1)), si, sw);

@@ -31,8 +31,8 @@ struct MonaghanSwitch : Monaghan<T> {
 
   explicit MonaghanSwitch(const PairInput& in) : Base(in), inverse(T(1.0 / in.alpha)) {}
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    this->exchange(i, j, pair, (T(0.5) * inverse) * (i.alpha + j.alpha), si, sj);
+  UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    return this->exchange(i, j, pair, (T(0.5) * inverse) * (i.alpha + j.alpha), si, sj);
   }
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     this->wall_exchange(i, w, pair, inverse * i.alpha, si, sw);

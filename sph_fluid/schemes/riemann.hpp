@@ -55,6 +55,7 @@ struct Riemann {
   using Sums = FluidSums<V>;
   static constexpr bool symmetric = true;
   static constexpr Partners partners = Partners::all;
+  static constexpr bool by_distances = true;  ///< the density of approaching particles of one material follows their distances
 
   explicit Riemann(const PairInput&) {}
 
@@ -108,9 +109,13 @@ struct Riemann {
     return {inverse_r, u, p_star, u_star};
   }
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+  /// By what the rates of pairs with gas are multiplied.
+  UNDEX_INLINE static V filling_share(const State& i, const State& j) { return 2 * reciprocal(i.filling + j.filling); }
+
+  /// Returns p*.
+  UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     const auto [inverse_r, u, p_star, u_star] = flux(i, j, pair);
-    const V F = pair.gas ? 4 * pair.F * reciprocal(i.filling + j.filling) : 2 * pair.F;
+    const V F = pair.gas ? 2 * pair.F * filling_share(i, j) : 2 * pair.F;
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
@@ -128,6 +133,7 @@ struct Riemann {
     const V speed = keep(pair.in_reach, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
+    return p_star;
   }
 
   /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own.

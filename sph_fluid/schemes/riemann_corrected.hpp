@@ -69,6 +69,7 @@ struct RiemannCorrected {
   using Plain = Riemann<T>;
   static constexpr bool symmetric = true;
   static constexpr Partners partners = Partners::all;
+  static constexpr bool by_distances = true;
 
   explicit RiemannCorrected(const PairInput&) {}
 
@@ -81,7 +82,11 @@ struct RiemannCorrected {
     return g;
   }
 
-  UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+  /// Of the kernel itself, which B does not correct.
+  UNDEX_INLINE static V filling_share(const State& i, const State& j) { return Plain::filling_share(i, j); }
+
+  /// Returns p*.
+  UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     const auto [inverse_r, u, p_star, u_star] = Plain::flux(i, j, pair);
     V S[6];
     for (int k = 0; k < 6; ++k) S[k] = i.B[k] + j.B[k];
@@ -104,6 +109,7 @@ struct RiemannCorrected {
     const V speed = keep(pair.in_reach, -u);
     si.closing = maximum(si.closing, speed);
     sj.closing = maximum(sj.closing, speed);
+    return p_star;
   }
 
   /// As in riemann.hpp, with the wall's velocity for v*.

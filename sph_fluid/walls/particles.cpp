@@ -32,7 +32,7 @@ void Particles::resize(std::size_t n, bool with_energy) {
   id.resize(n);
 }
 
-void Particles::make_room(SecondRow second, double alpha, bool of_stages) {
+void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {
   const std::size_t n = size();
   rate.assign(n, SumRow{});
   if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
@@ -41,6 +41,7 @@ void Particles::make_room(SecondRow second, double alpha, bool of_stages) {
   predicted.resize(n);
   if (second == SecondRow::gradient) gradient.resize(n);
   if (second == SecondRow::corrected) corrected.resize(n);
+  if (rings) ring.resize(n);
 }
 
 void Particles::permute(std::uint32_t first, const std::vector<std::uint32_t>& order) {

@@ -54,9 +54,10 @@ struct Particles : ParticleState {
   /// The state that rates are evaluated at (see Fluid's step) and what follows from it. While the particles are sorted its
   /// memory serves as scratch.
   std::vector<FluidRow> predicted;
-  // What pairs read beside `predicted`, of schemes that reconstruct.
+  // What pairs read beside `predicted`: of schemes that reconstruct, and of rings.
   std::vector<GradientRow> gradient;
   std::vector<CorrectedRow> corrected;
+  std::vector<RingRow> ring;
 
   std::size_t size() const { return x.size(); }
 
@@ -64,7 +65,7 @@ struct Particles : ParticleState {
   void resize(std::size_t n, bool with_energy);
   /// Room for the rest, once the state is there: until then set-up needs memory of its own. Coefficients of viscosity start
   /// from `alpha`.
-  void make_room(SecondRow second, double alpha, bool of_stages);
+  void make_room(SecondRow second, double alpha, bool of_stages, bool rings = false);
   /// Puts the particles of first .. first + order.size() into the order given by their present indices.
   void permute(std::uint32_t first, const std::vector<std::uint32_t>& order);
   /// The present state becomes that at the beginning of the step.
@@ -134,7 +135,8 @@ inline constexpr auto further_arrays = [] {
                     ArrayOf<P, std::uint32_t, 1>{"place", Role::index, {&P::place}},
                     ArrayOf<P, FluidRow, 1>{"predicted state", Role::scratch, {&P::predicted}},
                     ArrayOf<P, GradientRow, 1>{"gradient", Role::evaluated, {&P::gradient}},
-                    ArrayOf<P, CorrectedRow, 1>{"corrected gradient", Role::evaluated, {&P::corrected}});
+                    ArrayOf<P, CorrectedRow, 1>{"corrected gradient", Role::evaluated, {&P::corrected}},
+                    ArrayOf<P, RingRow, 1>{"ring", Role::scratch, {&P::ring}});
 }();
 
 /// How many arrays a list holds.

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <numbers>
 #include <type_traits>
 
 #include "sph_fluid/lattice.hpp"
@@ -43,7 +44,7 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
   cells_.resize(ranges.size());
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     const std::uint32_t start = std::uint32_t(images_.size());
-    add_range(ranges[r], particles, seen, faces, settings.dimension);
+    add_range(ranges[r], particles, seen, faces, settings);
     sort_from(start, ranges[r].width, cells_[r]);
     begin_.push_back(std::uint32_t(images_.size()));
   }
@@ -58,7 +59,7 @@ void WallImages::see_footprints(const Settings& settings, const std::vector<Mirr
 }
 
 void WallImages::add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen,
-                           const SlipFaces& faces, int dimension) {
+                           const SlipFaces& faces, const Settings& settings) {
   if ((feet_.empty() && faces.empty()) || range.depth <= 0.0) return;
   std::vector<std::vector<Image>> found(omp_get_max_threads());
 #pragma omp parallel
@@ -66,7 +67,7 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
     std::vector<Image>& mine = found[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
-      add_images_of(i, particles, seen, faces, range.depth, dimension, mine);
+      add_images_of(i, particles, seen, faces, range.depth, settings, mine);
   }
   for (const auto& part : found) {
     const int before = int(images_.size());
@@ -78,7 +79,7 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
 }
 
 void WallImages::add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
-                               double depth, int dimension, std::vector<Image>& images) const {
+                               double depth, const Settings& settings, std::vector<Image>& images) const {
   const Vec3 x = place_of(particles, i);
   const std::size_t mark = images.size();
   const auto each = [&](auto visit) {  // the particle and the images that it has so far
@@ -86,11 +87,13 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
     visit(x, -1);
     for (std::size_t k = mark; k < count; ++k) visit(Vec3(images[k].place), int(k));
   };
-  const auto add = [&](const Reflection& image, int parent) {
+  // A ring's volume is also as its radius.
+  const auto further = [&](const Vec3& place, const Vec3& from) { return settings.axisymmetric ? place[0] / from[0] : 1.0; };
+  const auto add = [&](const Reflection& image, const Vec3& from, int parent) {
     images.push_back({.owner = i,
                       .parent = parent,
                       .foot = -1,
-                      .stretch = image.stretch,
+                      .stretch = image.stretch * further(image.place, from),
                       .place = image.place,
                       .normal = image.normal,
                       .wall_velocity = Vec3::Zero()});
@@ -99,21 +102,22 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
   for (; foot != feet_.end() && foot->particle == i; ++foot) {
     if (foot->at.distance <= 0.0) continue;
     const WallPoint wall = seen.point(*foot);
+    const Vec3 place = wall.foot + foot->at.distance * wall.normal;
     images.push_back({.owner = i,
                       .parent = -1,
                       .foot = int(foot - feet_.begin()),
-                      .stretch = wall.stretch,
-                      .place = wall.foot + foot->at.distance * wall.normal,
+                      .stretch = wall.stretch * further(place, x),
+                      .place = place,
                       .normal = wall.normal,
                       .wall_velocity = wall.velocity});
   }
   for (const Cylinder& wall : faces.round)
     each([&](const Vec3& at, int parent) {
-      if (const auto image = image_in(wall, at, depth, dimension)) add(*image, parent);
+      if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent);
     });
   for (const SlipFaces::Pair& pair : faces.plane)
     each([&](const Vec3& at, int parent) {
-      images_in(pair, at, depth, dimension, [&](const Reflection& image) { add(image, parent); });
+      images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
     });
 }
 
@@ -187,19 +191,40 @@ void WallImages::for_each_mirror(std::uint32_t c, Visit visit) const {
   while (length-- > 0) visit(images_[chain[length]]);
 }
 
-void WallImages::reflect_rows(const Particles& particles) {
+void WallImages::reflect_rows(const Particles& particles, const RingKernel* rings) {
   rows_.resize(images_.size());
   viscosity_.resize(particles.viscosity.empty() ? 0 : images_.size());
   gradients_.resize(particles.gradient.empty() ? 0 : images_.size());
   corrected_.resize(particles.corrected.empty() ? 0 : images_.size());
+  ring_.resize(rings ? images_.size() : 0);
   sums_.assign(images_.size(), SumRow{});
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
     FluidRow row = particles.predicted[images_[c].owner];
     for_each_mirror(c, [&](const Image& image) { reflect(row, image.normal, image.wall_velocity, image.stretch); });
+    if (rings) ring_[slot_[c]] = ring_of(c, particles, *rings, row);
     rows_[slot_[c]] = row;
     if (!viscosity_.empty()) viscosity_[slot_[c]] = particles.viscosity[images_[c].owner];
   }
+}
+
+RingRow WallImages::ring_of(std::uint32_t c, const Particles& particles, const RingKernel& rings, FluidRow& row) const {
+  const Image& image = images_[c];
+  RingRow ring = particles.ring[image.owner];
+  double r = particles.x[image.owner];
+  for_each_mirror(c, [&](const Image& mirror) {
+    // Of a wall's normal the part along the axis keeps the hoop; two mirrors that make a shift keep it where r stays.
+    const double along = mirror.normal[1] * mirror.normal[1];
+    ring.share *= mirror.normal.isZero() ? (mirror.place[0] == r ? 1.0 : 0.0) : along;
+    r = mirror.place[0];
+  });
+  ring.slope *= ring.share;
+  ring.lent *= ring.share;
+  if (r != particles.x[image.owner]) {
+    row.vz = row.volume / (2.0 * std::numbers::pi * r);
+    ring.a = rings.at(r, row.h, row.vz).a;
+  }
+  return ring;
 }
 
 void WallImages::reflect_gradients(const Particles& particles) {
@@ -253,7 +278,7 @@ void WallImages::describe(PairInput& in) const {
   const void* second = viscosity_.data();
   if (!gradients_.empty()) second = gradients_.data();
   if (!corrected_.empty()) second = corrected_.data();
-  in.images = {.x = x_.data(), .y = y_.data(), .z = z_.data(), .fluid = rows_.data(), .second = second};
+  in.images = {.x = x_.data(), .y = y_.data(), .z = z_.data(), .fluid = rows_.data(), .second = second, .rings = ring_.data()};
 }
 
 std::size_t WallImages::memory_bytes() const {
@@ -261,7 +286,7 @@ std::size_t WallImages::memory_bytes() const {
                       slot_.capacity() * sizeof(slot_[0]) + (x_.capacity() + y_.capacity() + z_.capacity()) * sizeof(double) +
                       rows_.capacity() * sizeof(FluidRow) + gradients_.capacity() * sizeof(GradientRow) +
                       corrected_.capacity() * sizeof(CorrectedRow) + viscosity_.capacity() * sizeof(ViscosityRow) +
-                      sums_.capacity() * sizeof(SumRow);
+                      ring_.capacity() * sizeof(RingRow) + sums_.capacity() * sizeof(SumRow);
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
   return bytes;
 }

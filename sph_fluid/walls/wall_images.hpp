@@ -14,6 +14,7 @@
 
 #include "core/vector.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/pairs/ring_kernel.hpp"
 #include "sph_fluid/walls/footprint.hpp"
 #include "sph_fluid/walls/mirror_feet.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
@@ -40,7 +41,7 @@ class WallImages {
   void forget();
 
   /// Rows of the images from those of the particles: all but gradients, and these.
-  void reflect_rows(const Particles& particles);
+  void reflect_rows(const Particles& particles, const RingKernel* rings = nullptr);
   void reflect_gradients(const Particles& particles);
   /// Adds what the images have received to the sums of the particles that they show, and the walls' share to `force` [N]. Returns
   /// the power on moving walls [W].
@@ -65,9 +66,11 @@ class WallImages {
   void see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls);
   /// Appends the images of particle i to `images`, whose places the parents are.
   void add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces, double depth,
-                     int dimension, std::vector<Image>& images) const;
+                     const Settings& settings, std::vector<Image>& images) const;
   void add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
-                 int dimension);
+                 const Settings& settings);
+  /// What pairs read of an image as a ring; gives the row its area.
+  RingRow ring_of(std::uint32_t c, const Particles& particles, const RingKernel& rings, FluidRow& row) const;
   /// Sorts the images from `start` on by cell.
   void sort_from(std::uint32_t start, double width, CellList& cells);
   /// Calls visit(image) from the particle's own image on to image c of it.
@@ -89,6 +92,7 @@ class WallImages {
   std::vector<GradientRow> gradients_;
   std::vector<CorrectedRow> corrected_;
   std::vector<ViscosityRow> viscosity_;
+  std::vector<RingRow> ring_;
   std::vector<SumRow> sums_;
 };
 

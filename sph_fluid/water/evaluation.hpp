@@ -64,6 +64,7 @@ class Evaluation {
   Clamps& clamps_;
   PairLoops loops_;
   double kernel_scale_;  // 1 over the kernel's lattice factor
+  std::optional<RingKernel> rings_;
   SlipFaces slip_faces_;
   WallLining lining_;
   Signals signals_;

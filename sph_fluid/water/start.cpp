@@ -18,8 +18,8 @@ Fluid::Implementation::Implementation(const Settings& given) : Water(given), loc
   fill();
   lifted = fall();
   evaluation.pack_walls(all);
-  all.particles.make_room(evaluation.loops().second, settings.numerics.alpha,
-                          settings.numerics.integrator == Integrator::ssp_rk3);
+  all.particles.make_room(evaluation.loops().second, settings.numerics.alpha, settings.numerics.integrator == Integrator::ssp_rk3,
+                          settings.axisymmetric);
   evaluate(all, {.time = clock.time});
   evaluation.signals().watch(settings, all);
 }

@@ -164,6 +164,22 @@ TEST(Volume, OfBoxesIsExact) {
   EXPECT_EQ(volume({Box{Vec3(-2, -2, -2), Vec3(-1, 1, 1)}, {}}, octant, 3), 0);
 }
 
+/// Ball, torus, hollow cylinder, and a cylinder less a ball, all about x = 0.
+TEST(Volume, OfBodiesOfRevolution) {
+  const double pi = std::numbers::pi;
+  const Bounds everything{Vec3(-1, -1, -1), Vec3(1, 1, 1)};
+  const auto disc = [](double x, double y, double radius) { return Sphere{.center = Vec3(x, y, 0), .radius = radius}; };
+  const double ball = 4.0 / 3.0 * pi * std::pow(0.3, 3);
+  EXPECT_NEAR(volume_of_revolution({disc(0, 0.1, 0.3), {}}, everything), ball, 1e-5 * ball);
+  const double torus = 2 * pi * pi * 0.5 * 0.2 * 0.2;
+  EXPECT_NEAR(volume_of_revolution({disc(0.5, 0, 0.2), {}}, everything), torus, 1e-5 * torus);
+  const double hollow = pi * (0.7 * 0.7 - 0.4 * 0.4) * 0.5;
+  EXPECT_NEAR(volume_of_revolution({Box{Vec3(0.4, 0, 0), Vec3(0.7, 0.5, 0)}, {}}, everything), hollow, 1e-14);
+  const double left = pi * 0.5 * 0.5 * 0.8 - ball;
+  EXPECT_NEAR(volume_of_revolution({Box{Vec3(-0.5, -0.4, 0), Vec3(0.5, 0.4, 0)}, {disc(0, 0, 0.3)}}, everything), left,
+              1e-5 * left);
+}
+
 TEST(Volume, OfNothingIsZeroAndOfASlabInfinite) {
   EXPECT_EQ(volume({Sphere{Vec3::Zero(), 1}, {Sphere{Vec3::Zero(), 2}}}, everything, 3), 0);
   EXPECT_EQ(volume({Sphere{Vec3::Constant(-5), 1}, {}}, octant, 3), 0);

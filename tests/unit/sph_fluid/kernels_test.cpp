@@ -86,6 +86,20 @@ TYPED_TEST(Kernels, EndsAtTheSupport) {
   }
 }
 
+/// The loops' own form of the shape, in both precisions.
+TYPED_TEST(Kernels, ShapeBesideItsSlope) {
+  for (double q = 0.0; q < TypeParam::support; q += 0.01) {
+    const auto slope = [](auto at) {
+      using T = decltype(at);
+      if constexpr (TypeParam::needs_root) return TypeParam::template gradient_of_root<T>(at);
+      else return TypeParam::template gradient<T>(at * at);
+    };
+    const double shape = TypeParam::shape(q), most = TypeParam::shape(0.0);
+    EXPECT_NEAR(TypeParam::template shape_beside<double>(q, slope(q)), shape, 1e-10 * most) << q;
+    EXPECT_NEAR(TypeParam::template shape_beside<float>(float(q), slope(float(q))), shape, 1e-5 * most) << q;
+  }
+}
+
 TEST(Kernels, GoByTheirNames) {
   std::set<std::string> names;
   for (const KernelName name : all_kernels) names.insert(with_kernel(name, [](auto kernel) { return kernel.name; }));

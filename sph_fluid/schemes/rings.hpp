@@ -1,0 +1,79 @@
+// Pair schemes over rings about an axis: what pairs/ring_kernel.hpp makes of a scheme of the plane. In the meridian a scheme's
+// rates keep their form, with (a_i + a_j)/2 grad W in place of grad W and the volumes of whole rings; the rest of dK is the
+// hoop's:
+//   (d v_r/dt)_i  = -(1/rho_i) sum_j V_j p* w slope_i
+//   hoop_i        = w [(slope_i - lent_i) v_ri + lent_j v_rj],       a part of the rate of volume like any other:
+//   (d rho/dt)_i  += sum_j rho V_j hoop_i,   (d e/dt)_i += sum_j V_j p*/rho_i hoop_i
+// with w = W over its lattice sum, and the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum along
+// the axis and energy are conserved to round-off, whatever slope and lent are. A ring is its own neighbour: the loop meets it
+// with half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
+// would be turned round on its way back to the particle that it shows: i feels its own whole.
+#pragma once
+
+#include "sph_fluid/schemes/reconstruction.hpp"
+
+namespace undex::sph::UNDEX_LEVEL {
+
+/// A particle's state as that of a ring. In the meridian it has no third velocity: there the row has its area.
+template <class Base, class V>
+struct StateOfRing : Base, RingState<V> {
+  V area;
+
+  template <class Read>
+  UNDEX_INLINE void read(Read entry) {
+    Base::read(entry);
+    area = this->vz;
+    this->vz = V{};
+  }
+};
+
+/// Gradients are those of the meridian: areas for volumes.
+template <class T, template <class> class Gradients>
+struct GradientsOfRings : Gradients<T> {
+  using V = Vec<T>;
+  using Gradients<T>::Gradients;
+  struct State : FluidState<V> {
+    template <class Read>
+    UNDEX_INLINE void read(Read entry) {
+      FluidState<V>::read(entry);
+      this->volume = this->vz;
+      this->vz = V{};
+    }
+  };
+};
+
+template <class T, template <class> class Scheme>
+struct RatesOfRings : Scheme<T> {
+  using V = Vec<T>;
+  using Plane = Scheme<T>;
+  using State = StateOfRing<typename Plane::State, V>;
+  using Sums = typename Plane::Sums;
+  using Plane::Plane;
+  static constexpr bool rings = true;
+
+  UNDEX_INLINE void pair(const State& i, const State& j, Pair<V> pair, Sums& si, Sums& sj) const {
+    V w = pair.W;
+    if (pair.gas) w *= Plane::filling_share(i, j);
+    pair.F *= T(0.5) * (i.a + j.a);
+    const V p_star = Plane::pair(i, j, pair, si, sj);
+
+    const V slope = (2 - j.share) * i.slope, lent = j.share * i.lent;
+    const V Di = j.volume * w * ((slope - lent) * i.vx + j.lent * j.vx);
+    const V Dj = i.volume * w * ((j.slope - j.lent) * j.vx + lent * i.vx);
+    si.fx -= j.volume * w * slope * p_star;
+    sj.fx -= i.volume * w * j.slope * p_star;
+    V Ci = Di, Cj = Dj;
+    if (Plane::by_distances && pair.alike) {
+      const Mask<T> approach = (i.vx - j.vx) * pair.dx + (i.vy - j.vy) * pair.dy < 0;
+      const V inverse = reciprocal(i.rho * j.rho);
+      Ci = approach ? Di * (j.rho * j.rho * inverse) : Di;
+      Cj = approach ? Dj * (i.rho * i.rho * inverse) : Dj;
+    }
+    si.compression += Ci;
+    sj.compression += Cj;
+    si.heat += Di * p_star - Ci * i.p;
+    sj.heat += Dj * p_star - Cj * j.p;
+  }
+};
+
+}  // namespace undex::sph::UNDEX_LEVEL
