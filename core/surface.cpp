@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "core/bilinear_patch.hpp"
 
@@ -27,6 +28,13 @@ SurfaceFoot nearest_foot(const WetSurface& surface, const Vec3& x) {
 std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position) {
   std::vector<double> area(position.size(), 0.0);
   for (const std::array<int, 4>& face : faces) {
+    if (is_segment(face)) {
+      const Vec3 &a = position[face[0]], &b = position[face[1]];
+      const double share = std::numbers::pi * (b - a).norm() / 3.0;
+      area[face[0]] += share * (2.0 * a[0] + b[0]);
+      area[face[1]] += share * (a[0] + 2.0 * b[0]);
+      continue;
+    }
     const Vec3 u = position[face[2]] - position[face[0]], v = position[face[3]] - position[face[1]];
     for (const int n : face) area[n] += 0.125 * u.cross(v).norm();
   }
@@ -41,7 +49,8 @@ std::vector<Vec3> node_normals(std::span<const std::array<int, 4>> faces, std::s
   const double tolerance = 1e-9 * (box.high - box.low).norm();
   for (const std::array<int, 4>& face : faces) {
     // Half the product of the diagonals: the face's area vector.
-    const Vec3 area = 0.5 * (position[face[2]] - position[face[0]]).cross(position[face[3]] - position[face[1]]);
+    const std::array<Vec3, 4> x = corners_of(face, position);
+    const Vec3 area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
     for (const int n : face) normal[n] += area;
   }
   for (std::size_t n = 0; n < normal.size(); ++n) {

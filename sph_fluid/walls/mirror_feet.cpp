@@ -112,10 +112,8 @@ SeenMirrors::SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector
 BilinearPatch SeenMirrors::patch(int wall, int face) const {
   BilinearPatch patch;
   const auto& nodes = walls_[wall].faces[face];
-  for (int c = 0; c < 4; ++c) {
-    patch.corner[c] = walls_[wall].position[nodes[c]];
-    patch.normal[c] = normal_[wall][nodes[c]];
-  }
+  patch.corner = corners_of(nodes, walls_[wall].position);
+  for (int c = 0; c < 4; ++c) patch.normal[c] = normal_[wall][nodes[c]];
   return patch;
 }
 
@@ -134,7 +132,7 @@ double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {
   double least = 1e300;
   for (const MirrorWall& wall : walls) {
     double longest = 0.0;
-    for (const auto& face : wall.faces)
+    for (const auto& face : wall.faces)  // of a segment both diagonals are its length
       longest = std::max({longest, (wall.position[face[0]] - wall.position[face[2]]).norm(),
                           (wall.position[face[1]] - wall.position[face[3]]).norm()});
     for (const Vec3& x : wall.position)
