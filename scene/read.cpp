@@ -17,9 +17,8 @@ void read_top(Draft& draft) {
   {
     Report aside;  // the dimension decides how the rest is read, so it comes first
     const TableReader table(draft.root, "", "", 3, aside);
-    int dimension = 3;
-    if (table.has("dimension")) draft.dimension_good = table.read("dimension", dimension);
-    scene.fluid.dimension = dimension;
+    Dimension dimension{scene.fluid.dimension, scene.geometry};
+    if (table.has("dimension")) draft.dimension_good = by_form::read(table, {.name = "dimension"}, dimension);
   }
   const TableReader table(draft.root, "", "", scene.fluid.dimension, draft.report);
   read_fields(table, scene);

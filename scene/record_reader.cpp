@@ -64,6 +64,14 @@ bool read(const TableReader& table, const Key& key, std::array<bool, 3>& into) {
   return true;
 }
 
+bool read(const TableReader& table, const Key& key, Dimension& into) {
+  const Node* node = table.find(key.name);
+  if (!node || node->kind != Node::Kind::text) return table.read(key.name, into.coordinates);
+  if (!table.read_choice(key.name, into.geometry, choices<Geometry>())) return false;
+  into.coordinates = coordinates_of(into.geometry);
+  return true;
+}
+
 void check_greater(const TableReader& table, const Key& key, double high, double low) {
   if (low < high) return;
   table.complain(key.name, table.path_of(key.name) + " = " + shortest(high) + " must be greater than " + key.greater + " = " +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/shapes.hpp"
+#include "scene/dimension.hpp"
 #include "scene/table_reader.hpp"
 
 namespace undex::scene {
@@ -40,6 +41,7 @@ bool read(const TableReader& table, const Key& key, int& into);
 bool read(const TableReader& table, const Key& key, double& into);
 bool read(const TableReader& table, const Key& key, Vec3& into);
 bool read(const TableReader& table, const Key& key, std::array<bool, 3>& into);
+bool read(const TableReader& table, const Key& key, Dimension& into);
 
 inline void check_greater(const TableReader&, const Key&, const auto&, const auto&) {}
 void check_greater(const TableReader& table, const Key& key, double high, double low);

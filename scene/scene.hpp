@@ -11,6 +11,7 @@
 #include "core/record.hpp"
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
+#include "scene/dimension.hpp"
 #include "scene/places.hpp"
 #include "scene/solution.hpp"
 #include "sph_fluid/settings.hpp"
@@ -202,8 +203,9 @@ struct Scene {
   std::string name, title;
   std::filesystem::path file;  ///< where it was read from
   double end_time = 0;         ///< [s]
-  sph::Settings fluid;         ///< and what all particles share; without bodies where there is no fluid
-  solid::Settings solids;      ///< solids in particles; rigid planes for structures too
+  Geometry geometry = Geometry::cartesian;
+  sph::Settings fluid;     ///< and what all particles share; without bodies where there is no fluid
+  solid::Settings solids;  ///< solids in particles; rigid planes for structures too
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;
@@ -221,10 +223,12 @@ void describe(Scene& scene, Visit&& visit) {
                      .form = Form::name,
                      .meaning = "names the run and its default output folder"});
   visit(scene.title, {.name = "title", .rule = "the name", .meaning = "one line for plots and lists"});
-  visit(scene.fluid.dimension, {.name = "dimension",
-                                .range = Range::between(1, 3),
-                                .values = "1, 2, 3",
-                                .meaning = "of space; a structure needs 3, solids 2 (plane strain) or 3"});
+  Dimension dimension{scene.fluid.dimension, scene.geometry};
+  visit(dimension, {.name = "dimension",
+                    .range = Range::between(1, 3),
+                    .values = "1, 2, 3, \"axisymmetric\", \"spherical\", \"plane\"",
+                    .meaning = "of space; a structure needs 3, solids 2 (plane strain) or 3. Or a symmetry that leaves fewer "
+                               "coordinates than the scene is written in"});
   visit(scene.end_time, {.name = "end_time",
                          .unit = "s",
                          .range = Range::above(0, 1e3),

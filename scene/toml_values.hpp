@@ -9,6 +9,7 @@
 #include "core/record.hpp"
 #include "core/shapes.hpp"
 #include "scene/alternatives.hpp"
+#include "scene/dimension.hpp"
 #include "scene/document.hpp"
 #include "scene/numbers.hpp"
 
@@ -61,6 +62,9 @@ class TomlValues {
   }
   std::string text(const std::vector<Primitive>& shapes) const {
     return shapes.empty() ? "" : array(shapes, [&](const Primitive& shape) { return inline_table(shape); });
+  }
+  std::string text(const Dimension& value) const {
+    return value.geometry == Geometry::cartesian ? text(value.coordinates) : text(value.geometry);
   }
   std::string text(const ByHand&) const { return ""; }
 

@@ -29,6 +29,7 @@ Validator::Validator(Draft& draft)
 }
 
 void Validator::run() {
+  geometry();
   names();
   parts();
   lattice();
@@ -125,6 +126,12 @@ void Validator::names() {
         complain(*draft_.solid_nodes[i], "name", "solids: the name '" + body.name + "' is that of a body; choose another one");
   unique("walls", fluid_.walls, draft_.wall_nodes);
   unique("probes", scene_.probes, draft_.probe_nodes);
+}
+
+void Validator::geometry() {
+  if (scene_.geometry != Geometry::cartesian)
+    complain(draft_.root, "dimension",
+             std::string("dimension = \"") + word_of(scene_.geometry) + "\" is not built yet; give a number of coordinates");
 }
 
 void Validator::parts() {

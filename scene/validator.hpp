@@ -37,6 +37,7 @@ class Validator {
   };
 
   // validate.cpp
+  void geometry();
   void names();
   void parts();
   void collect();

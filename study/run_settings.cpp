@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/dimension.hpp"
 #include "scene/document.hpp"
 #include "scene/numbers.hpp"
 
@@ -66,12 +67,20 @@ Vec3 vector_at(const Node& table, const char* key) {
   return result;
 }
 
+/// That of which energies are counted: whole rings and spheres are of space.
+int dimension_of(const Node& node) {
+  if (node.kind != Node::Kind::text) return static_cast<int>(node.integer);
+  for (const auto& [word, geometry] : words(scene::Geometry{}))
+    if (node.text == word) return scene::coordinates_of(geometry);
+  return 3;
+}
+
 }  // namespace
 
 ResolvedScene read_resolved(const std::string& text, const std::string& file) {
   const Node root = scene::parse_toml(text, file);
   ResolvedScene result;
-  if (const Node* dimension = root.find("dimension")) result.dimension = static_cast<int>(dimension->integer);
+  if (const Node* dimension = root.find("dimension")) result.dimension = dimension_of(*dimension);
   flatten(root, "", result.settings);
   if (const Node* probes = root.find("probes"))
     for (const Node& probe : probes->items) {

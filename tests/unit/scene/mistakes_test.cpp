@@ -81,6 +81,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"negative density", with(two_gases, "density = 0.125", "density = -1"),
        "17:11: bodies.right.density = -1 [kg/m^3] must be greater than 0\n"},
       {"dimension", with(two_gases, "dimension = 1", "dimension = 4"), "1:13: dimension = 4 must be from 1 to 3\n"},
+      {"geometry", with(two_gases, "dimension = 1", "dimension = \"sperical\""),
+       "1:13: dimension: unknown 'sperical'; did you mean 'spherical'?\n"},
       {"components", with(coupled_tube, "point = [0.044, 0, 0]", "point = [0.044, 0]"),
        "30:9: probes.wall.point must be an array of 3 numbers, not an array of 2\n"},
       {"choice", with(coupled_tube, "kind = \"wall\"", "kind = \"wal\""),
