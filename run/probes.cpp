@@ -39,6 +39,24 @@ std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x,
   return [x] { return x; };
 }
 
+/// What is read of a scene's meridian, in space: in the half-plane of the probe.
+FluidPoint in_space(FluidPoint point, const Meridian& meridian, const Vec3& outward) {
+  point.velocity = meridian.vector_in_space(point.velocity, outward);
+  return point;
+}
+MaterialPoint in_space(MaterialPoint point, const Meridian& meridian, const Vec3& outward) {
+  point.position = meridian.place_in_space(point.position, outward);
+  for (Vec3* vector : {&point.displacement, &point.velocity, &point.acceleration})
+    *vector = meridian.vector_in_space(*vector, outward);
+  point.stress = meridian.tensor_in_space(point.stress, outward);
+  return point;
+}
+template <class Point>
+std::function<Point()> in_space(std::function<Point()> point, const std::optional<Meridian>& meridian, const Vec3& x) {
+  if (!meridian) return point;
+  return [=, line = *meridian, outward = meridian->outward_at(x)] { return in_space(point(), line, outward); };
+}
+
 std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::function<Vec3()> place) {
   return [fluid = simulation.fluid(), place = std::move(place)] { return fluid->at(place()); };
 }
@@ -48,20 +66,22 @@ std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::funct
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
   const int dimension = scene.structure ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty()) std::filesystem::create_directories(folder / "history");
+  const std::optional<Meridian>& meridian = simulation.meridian();
   for (const scene::Probe& probe : scene.probes) {
+    const Vec3 x = meridian ? meridian->place(probe.point) : probe.point;
     std::vector<output::Column> columns{{"time", "s"}};
     Read read;
     if (probe.kind == scene::Probe::Kind::structure) {
       const auto quantities = chosen(material_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      read = reader<MaterialPoint>(quantities, dimension, material_point(simulation, probe.point));
+      read = reader<MaterialPoint>(quantities, dimension, in_space(material_point(simulation, x), meridian, probe.point));
     } else {
       const auto quantities = chosen(fluid_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      std::function<Vec3()> place = [x = probe.point] { return x; };
-      if (probe.kind == scene::Probe::Kind::wall)
-        place = place_on_wall(simulation, probe.point, 2.0 * scene.fluid.lattice.spacing);
-      read = reader<FluidPoint>(quantities, dimension, fluid_point(simulation, std::move(place)));
+      std::function<Vec3()> place = [x] { return x; };
+      if (probe.kind == scene::Probe::Kind::wall) place = place_on_wall(simulation, x, 2.0 * scene.fluid.lattice.spacing);
+      read =
+          reader<FluidPoint>(quantities, dimension, in_space(fluid_point(simulation, std::move(place)), meridian, probe.point));
     }
     channels_.push_back({.probe = probe,
                          .read = std::move(read),

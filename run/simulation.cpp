@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "fem_structure/structure.hpp"
+#include "scene/revolution.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_solid/solids.hpp"
 
@@ -98,9 +99,10 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 
 }  // namespace
 
-Simulation::Simulation(const scene::Scene& scene) {
-  build(scene);
-  take_start(scene);
+Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
+  const scene::Scene solved = scene::for_solvers(scene);
+  build(solved);
+  take_start(solved);
 }
 
 void Simulation::build(const scene::Scene& scene) {
@@ -142,11 +144,12 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
-  for (int a = 0; a < 3; ++a)
+  for (int a = meridian_ ? 1 : 0; a < 3; ++a)  // a ring is whole
     if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
   balanced_ = balanced_axes(scene);
   gravity_ = scene.fluid.gravity;
-  closed_ = copies_ == 1 && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !scene.structure;
+  closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
+            !scene.structure;
   start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();

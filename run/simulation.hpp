@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/deformable_body.hpp"
+#include "core/meridian.hpp"
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
 #include "scene/scene.hpp"
@@ -32,7 +33,7 @@ struct EnergyBalance {
 
 class Simulation {
  public:
-  /// Throws SceneError where a solver refuses its part of the scene.
+  /// An axisymmetric scene is computed in its meridian. Throws SceneError where a solver refuses its part of the scene.
   explicit Simulation(const scene::Scene& scene);
 
   double time() const;
@@ -65,6 +66,8 @@ class Simulation {
   /// Seconds per pass of all solvers.
   output::NamedNumbers passes() const;
 
+  /// The meridian in which solvers see an axisymmetric scene: their places, and vectors, are (r, axial, 0).
+  const std::optional<Meridian>& meridian() const { return meridian_; }
   const sph::Fluid* fluid() const { return fluid_.get(); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
   /// Which particle is the fastest, of the water if there is some, and where; empty where there are none.
@@ -82,6 +85,7 @@ class Simulation {
   Vec3 impulse() const;
   Vec3 angular_momentum() const;
 
+  std::optional<Meridian> meridian_;
   std::unique_ptr<sph::Fluid> fluid_;
   std::vector<std::unique_ptr<DeformableBody>> bodies_;
   std::unique_ptr<Driver> driver_;

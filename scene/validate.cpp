@@ -129,7 +129,7 @@ void Validator::names() {
 }
 
 void Validator::geometry() {
-  if (scene_.geometry != Geometry::cartesian)
+  if (on_a_line(scene_.geometry))
     complain(draft_.root, "dimension",
              std::string("dimension = \"") + word_of(scene_.geometry) + "\" is not built yet; give a number of coordinates");
 }
