@@ -27,7 +27,8 @@ std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
       if (found == wall.faces.end()) return true;
       return found->second != sph::FaceCondition::open;
     };
-    if (const auto* round = std::get_if<Cylinder>(&wall.container))
+    if (std::holds_alternative<Sphere>(wall.container)) pushed[a] = closed("side");
+    else if (const auto* round = std::get_if<Cylinder>(&wall.container))
       pushed[a] = a == round->axis ? closed("low") || closed("high") : closed("side");
     else pushed[a] = closed(std::string(1, "xyz"[a]) + "_low") || closed(std::string(1, "xyz"[a]) + "_high");
   }

@@ -19,6 +19,7 @@ std::vector<std::string> wall_faces(const Primitive& container, int dimension) {
     if (cylinder->axis < dimension) names.insert(names.end(), {"low", "high"});
     return names;
   }
+  if (std::holds_alternative<Sphere>(container)) return {"side"};
   return box_faces(dimension);
 }
 

@@ -199,6 +199,7 @@ sph::Body meridian_of(const sph::Body& body, const Meridian& line) {
 sph::Wall meridian_of(const sph::Wall& wall, const Meridian& line) {
   sph::Wall meridian = wall;
   meridian.container = meridian_of(wall.container, line);
+  if (std::holds_alternative<Sphere>(wall.container)) return meridian;
   meridian.faces.clear();
   meridian.faces["x_low"] = sph::FaceCondition::open;  // beyond the axis
   for (const auto& [face, here] : {std::pair("side", "x_high"), {"low", "y_low"}, {"high", "y_high"}})
