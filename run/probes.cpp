@@ -22,6 +22,7 @@ Read reader(std::vector<PointQuantity<Point>> quantities, int dimension, std::fu
 
 /// The material point nearest to x at the start, of whichever body.
 std::function<MaterialPoint()> material_point(const Simulation& simulation, const Vec3& x) {
+  if (simulation.line()) return simulation.line()->in_solid(x);
   const DeformableBody* owner = nullptr;
   BodyPoint nearest;
   for (const auto& body : simulation.bodies())
@@ -39,8 +40,14 @@ std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x,
   return [x] { return x; };
 }
 
-std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::function<Vec3()> place) {
-  return [fluid = simulation.fluid(), place = std::move(place)] { return fluid->at(place()); };
+/// The fluid at x, or on the wall or body near it.
+std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3& x, bool on_wall, double reach) {
+  if (const LineFlow* line = simulation.line()) {
+    if (on_wall) return line->at_surface(x);
+    return [=] { return line->at(x); };
+  }
+  const std::function<Vec3()> place = on_wall ? place_on_wall(simulation, x, reach) : [x] { return x; };
+  return [fluid = simulation.fluid(), place] { return fluid->at(place()); };
 }
 
 }  // namespace
@@ -58,10 +65,9 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     } else {
       const auto quantities = chosen(fluid_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      std::function<Vec3()> place = [x = probe.point] { return x; };
-      if (probe.kind == scene::Probe::Kind::wall)
-        place = place_on_wall(simulation, probe.point, 2.0 * scene.fluid.lattice.spacing);
-      read = reader<FluidPoint>(quantities, dimension, fluid_point(simulation, std::move(place)));
+      const bool on_wall = probe.kind == scene::Probe::Kind::wall;
+      read = reader<FluidPoint>(quantities, dimension,
+                                fluid_point(simulation, probe.point, on_wall, 2.0 * scene.fluid.lattice.spacing));
     }
     channels_.push_back({.probe = probe,
                          .read = std::move(read),

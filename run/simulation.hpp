@@ -1,4 +1,5 @@
-// What a scene asks for: water or none, deforming bodies, and the driver that advances them together.
+// What a scene asks for: water or none, deforming bodies, and the driver that advances them together; or all of it on the
+// one-dimensional mesh.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include "core/deformable_body.hpp"
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
+#include "run/line_flow.hpp"
 #include "scene/scene.hpp"
 #include "sph_fluid/water/fluid.hpp"
 
@@ -65,7 +67,11 @@ class Simulation {
   /// Seconds per pass of all solvers.
   output::NamedNumbers passes() const;
 
-  const sph::Fluid* fluid() const { return fluid_.get(); }
+  const sph::Fluid* fluid() const { return fluid_.get(); }  ///< in particles; null: none
+  const LineFlow* line() const { return line_.get(); }      ///< where all is on the one-dimensional mesh; else null
+  bool has_fluid() const { return fluid_ || line_; }
+  /// A field of the fluid's particles, or of the mesh's cells, at time().
+  std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
   /// Which particle is the fastest, of the water if there is some, and where; empty where there are none.
   std::string fastest_particle() const;
@@ -82,6 +88,7 @@ class Simulation {
   Vec3 impulse() const;
   Vec3 angular_momentum() const;
 
+  std::unique_ptr<LineFlow> line_;
   std::unique_ptr<sph::Fluid> fluid_;
   std::vector<std::unique_ptr<DeformableBody>> bodies_;
   std::unique_ptr<Driver> driver_;

@@ -32,6 +32,10 @@ void Validator::run() {
   geometry();
   names();
   parts();
+  if (on_a_line(scene_.geometry)) {
+    times();
+    return line();
+  }
   lattice();
   times();
   if (!draft_.dimension_good) return;
@@ -129,7 +133,7 @@ void Validator::names() {
 }
 
 void Validator::geometry() {
-  if (scene_.geometry != Geometry::cartesian)
+  if (scene_.geometry == Geometry::axisymmetric)
     complain(draft_.root, "dimension",
              std::string("dimension = \"") + word_of(scene_.geometry) + "\" is not built yet; give a number of coordinates");
 }
@@ -143,7 +147,7 @@ void Validator::parts() {
     draft_.report.add(*draft_.structure_node,
                       "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
                       "either finite elements or particles; remove one of the two");
-  if (solids && draft_.dimension_good && dimension_ == 1)
+  if (solids && draft_.dimension_good && dimension_ == 1 && scene_.geometry != Geometry::plane)
     draft_.report.add(*draft_.solid_nodes[0],
                       "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
   if (!solids && !draft_.structure_node && !draft_.plane_nodes.empty())

@@ -87,9 +87,11 @@ void describe(Lattice& lattice, Visit&& visit) {
   visit(lattice.spacing, {.name = "spacing",
                           .unit = "m",
                           .range = Range::length(),
-                          .rule = "required with bodies, and with solids without a spacing of their own",
+                          .rule = "required with bodies, and with solids without a spacing of their own; on a mesh a 400th of "
+                                  "the core",
                           .used = lattice.spacing > 0,
-                          .meaning = "distance of particles, dx"});
+                          .meaning = "distance of particles, dx; with `dimension` \"spherical\" or \"plane\" the width of "
+                                     "cells in the core, which is the charge or the innermost body"});
   visit(lattice.type, {.name = "lattice",
                        .meaning = "\"rings\": concentric rings about an axis, quietest at a cylindrical wall; "
                                   "not in 1D"});
@@ -243,7 +245,7 @@ void describe(Wall& wall, Visit&& visit) {
   visit(ByHand{}, {.name = "shape",
                    .needed = true,
                    .remedy = "a box or cylinder round the fluid",
-                   .values = "box or cylinder",
+                   .values = "box or cylinder; sphere with `dimension` \"spherical\"",
                    .meaning = "the inside"});
   visit(ByHand{}, {.name = "condition",
                    .rule = "\"free_slip\"",
