@@ -41,6 +41,8 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
     if (!(layer.outer > layer.inner))
       refuse(text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
     if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
+    if (!layer.places.empty() && static_cast<int>(layer.places.size()) != layer.cells - 1)
+      refuse(text("layer ", k, " of ", layer.cells, " cells has ", layer.places.size(), " places between them"));
     if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
     if (!layer.start && !(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
     if (k > 0 && std::abs(layer.inner - layers[k - 1].outer) > 1e-12 * std::abs(layer.inner))
@@ -106,7 +108,8 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
         block.stiffest_sound = tait->parameters().mixture.liquid_sound;
     double width = first_width(layer.outer - layer.inner, layer.cells, layer.ratio);
     for (int i = 0; i < layer.cells; ++i, width *= layer.ratio) {
-      const double from = r_.back(), to = i + 1 < layer.cells ? from + width : layer.outer;
+      const double from = r_.back();
+      const double to = i + 1 == layer.cells ? layer.outer : layer.places.empty() ? from + width : layer.places[i];
       const StartPoint state = start_of(layer, 0.5 * (from + to));
       if (!(state.density > 0))
         refuse(text("layer ", k, " starts with the density ", state.density, " kg/m^3 between ", from, " and ", to, " m"));
@@ -493,6 +496,11 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   state("steps", steps_);
   state("active", active_);
   state("layer", cell_layer_);
+  std::vector<char> burns;
+  for (const Layer& layer : layers_) burns.push_back(layer.burn.has_value());
+  state("burns", burns);
+  for (std::size_t k = 0; k < layers_.size(); ++k)
+    if (!burns[k]) layers_[k].burn.reset();
   for (auto& [name, field] : {std::pair{"radius", &r_},
                               {"velocity", &u_},
                               {"energy", &e_},
@@ -521,6 +529,11 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   push_in_.resize(solids_.deviator.size());
   push_out_.resize(solids_.deviator.size());
   fill_new();
+}
+
+void Lagrangian1D::end_burns() {
+  for (int k = 0; k < layers(); ++k)
+    if (layers_[k].burn && !still_burns(k)) layers_[k].burn.reset();
 }
 
 bool Lagrangian1D::still_burns(int layer) const {
@@ -552,14 +565,14 @@ void Lagrangian1D::merge_solids(int one, int other, int into) {
   solids_.plastic_energy[into] = solids_.plastic_energy[one] + (one == other ? 0.0 : solids_.plastic_energy[other]);
 }
 
-void Lagrangian1D::coarsen(double width, int least) {
+void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int least) {
   const int n = cells();
   std::vector<int> first;  // old cell with which a new one begins
   const auto may_merge = [&](int layer) { return blocks_[layer].end - blocks_[layer].begin >= 2 * least && !still_burns(layer); };
   for (int i = 0; i < n;) {
     first.push_back(i);
-    const bool pair =
-        i + 3 < active_ && cell_layer_[i] == cell_layer_[i + 1] && r_[i + 2] - r_[i] <= width && may_merge(cell_layer_[i]);
+    const bool pair = i + 3 < active_ && cell_layer_[i] == cell_layer_[i + 1] && r_[i + 2] - r_[i] <= width(r_[i + 1]) &&
+                      may_merge(cell_layer_[i]);
     i += pair ? 2 : 1;
   }
   const int left = static_cast<int>(first.size());
@@ -631,7 +644,7 @@ double Lagrangian1D::barotropic_heat() const {
     std::visit(
         [&](const auto& law) {
           if constexpr (!std::remove_cvref_t<decltype(law)>::uses_energy)
-            for (int i = blocks_[k].begin; i < blocks_[k].end; ++i)
+            for (int i = blocks_[k].begin; i < std::min(blocks_[k].end, active_ + 2); ++i)  // none beyond
               sum += cell_mass_[i] * (e_[i] - law.barotropic_energy(rho_[i]));
         },
         *fluid);

@@ -54,6 +54,8 @@ struct Layer {
   /// A start that is not uniform, in place of density, energy and velocity above: asked for at the cells' middles (the
   /// velocity: at the nodes).
   std::function<StartPoint(double radius)> start = {};
+  /// Ends of its cells but the first and the last, from the inside out [m]: as many as `cells` needs; empty: as `ratio` says.
+  std::vector<double> places = {};
 };
 
 /// Ratio of neighbouring widths with which `cells` cells fill `length` [m], the first being `first` [m] wide.
@@ -139,11 +141,18 @@ class Lagrangian1D {
   /// What the next step goes on from.
   void visit_state(StateVisitor& state);
 
+  /// Charges that have burned are products from now on: the sound speed of what burns, which is at least D/2, limits the step.
+  void end_burns();
+
   /// Merges neighbouring cells of a layer where the two together are no wider than `width` [m]: an outgoing wave grows longer and
   /// asks for less. Mass, momentum (but at a rigid end) and the sum of kinetic and internal energy stay what they are; what the
   /// node between two cells had of motion beyond its neighbours becomes their heat. Cells that nothing has reached, and layers
   /// that still burn, are left alone, and no layer keeps fewer than `least` cells.
-  void coarsen(double width, int least = 1);
+  void coarsen(double width, int least = 1) {
+    coarsen([width](double) { return width; }, least);
+  }
+  /// The same with a width for each place [m].
+  void coarsen(const std::function<double(double place)>& width, int least = 1);
 
   double time() const { return time_; }
   long steps() const { return steps_; }

@@ -9,22 +9,23 @@
 namespace undex::run {
 namespace {
 
-constexpr int least_cells = 8;       // of a layer
-constexpr double compressed = 1e-4;  // share of the density by which a front is known
-constexpr double fastest = 1e4;      // [m/s] no front goes by more between two looks
-constexpr double most_growth = 1.1;  // of the way of the front between two merges
+constexpr int least_cells = 8;              // of a layer
+constexpr double compressed = 1e-4;         // share of the density by which a front is known
+constexpr double fastest = 1e4;             // [m/s] no front goes by more between two looks
+constexpr double behind_front = 1.0 / 800;  // width that cells may have, over their distance from the front
+constexpr double most_growth = 1.1;         // of the way of the front between two merges
 
-/// The cells of a layer as the line asks for them: their number, and the ratio of neighbours.
+/// Lays a layer out in cells of about the widths that the line asks for.
 void cut(const scene::Line& line, double spacing, exact::Layer& layer) {
-  const double length = layer.outer - layer.inner;
-  const double first = line.cell_width(layer.inner, spacing), last = line.cell_width(layer.outer, spacing);
-  if (std::abs(last / first - 1.0) < 1e-9) {
-    layer.cells = std::max(least_cells, static_cast<int>(std::lround(length / first)));
-    return;
+  const double length = layer.outer - layer.inner, most = length / least_cells;
+  std::vector<double> ends{0.0};
+  while (ends.back() < length) {
+    const double half = 0.5 * std::min(most, line.cell_width(layer.inner + ends.back(), spacing));
+    ends.push_back(ends.back() + std::min(most, line.cell_width(layer.inner + ends.back() + half, spacing)));
   }
-  // Widths that are linear in the place are a geometric row.
-  layer.cells = std::max(least_cells, static_cast<int>(std::lround(length * std::log(last / first) / (last - first))));
-  layer.ratio = std::pow(last / first, 1.0 / layer.cells);
+  if (ends.back() - length > 0.5 * (ends.back() - ends[ends.size() - 2])) ends.pop_back();
+  layer.cells = static_cast<int>(ends.size()) - 1;
+  for (int i = 1; i < layer.cells; ++i) layer.places.push_back(layer.inner + ends[i] * (length / ends.back()));
 }
 
 exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spacing, double inner, double outer) {
@@ -91,9 +92,11 @@ void LineFlow::follow_front() {
   front_ = std::max(front_, mesh_.front(compressed, limit) - line_.core_high);
   last_look_ = time();
   next_look_ = time() + 0.05 * (core + front_) / fastest;
+  mesh_.end_burns();
   if (core + front_ < most_growth * (core + merged_at_)) return;
   merged_at_ = front_;
-  mesh_.coarsen(line_.cell_width(line_.core_high + front_, spacing_), least_cells);
+  const double at = line_.core_high + front_, width = line_.cell_width(at, spacing_);
+  mesh_.coarsen([=](double place) { return width + behind_front * std::max(0.0, at - place); }, least_cells);
 }
 
 void LineFlow::visit_state(StateVisitor& state) {

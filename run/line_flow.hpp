@@ -1,7 +1,7 @@
 // A scene that needs one coordinate, on the one-dimensional Lagrangian mesh (exact/lagrangian_1d.hpp): its bodies and solids as
-// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and wider away from it; what
-// the first wave's front has left behind is merged to the width of the cells at the front. So the cost of a run of which the wave
-// goes out to r grows with log(r), not with its square.
+// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and somewhat wider away from it.
+// What the first wave's front has left behind is merged, the more the farther behind, and what is ahead of it costs nothing. So
+// the cells at work are a few times those of the core, however far the wave goes.
 #pragma once
 
 #include <functional>

@@ -168,7 +168,7 @@ class Builder {
 double Line::cell_width(double place, double spacing) const {
   if (!graded) return spacing;
   const double away = std::max({0.0, core_low - place, place - core_high});
-  return spacing * (1.0 + 0.5 * away / (core_high - core_low));
+  return spacing * std::pow(1.0 + 0.5 * away / (core_high - core_low), 0.25);
 }
 
 Line line_of(const Scene& scene) { return Builder(scene).build(); }

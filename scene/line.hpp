@@ -35,7 +35,7 @@ struct Line {
   double inner() const { return layers.front().inner; }
   double outer() const { return layers.back().outer; }
   /// Of a cell at that place where those of the core are `spacing` wide [m]: with the distance d from the core, whose thickness
-  /// is L, it grows as 1 + d/(2 L), for a wave grows longer as it runs.
+  /// is L, it grows as (1 + d/(2 L))^(1/4), as a blast wave grows longer on its way.
   double cell_width(double place, double spacing) const;
 };
 

@@ -272,8 +272,7 @@ void complete_line(Draft& draft) {
   for (std::size_t i = 0; i < scene.fluid.bodies.size(); ++i) {
     sph::Body& body = scene.fluid.bodies[i];
     const Node* burn = draft.body_nodes[i]->find("burn");
-    if (body.burn && !(burn && burn->kind == Node::Kind::table && burn->find("width")))
-      body.burn->width = burn_width(lattice.spacing, body.burn->origin, body.shape.base, scene.fluid.dimension);
+    if (body.burn && !(burn && burn->kind == Node::Kind::table && burn->find("width"))) body.burn->width = 4.0 * lattice.spacing;
   }
 }
 

@@ -69,8 +69,7 @@ void Validator::cells_of(const Line& line) {
   const double spacing = fluid_.lattice.spacing, core = line.core_high - line.core_low;
   const Node* resolution = draft_.root.find("resolution");
   const Node& node = resolution ? *resolution : draft_.root;
-  const double cells = line.graded ? (core + 2 * core * std::log1p(0.5 * (line.outer() - line.inner()) / core)) / spacing
-                                   : (line.outer() - line.inner()) / spacing;
+  const double cells = (line.outer() - line.inner()) / line.cell_width(line.outer(), spacing);
   if (cells > most_cells)
     complain(node, "spacing",
              "resolution.spacing = " + shortest(spacing) + " [m] makes about " + rounded(cells) + " cells, more than " +
