@@ -30,7 +30,7 @@ struct Slab {
 struct Sphere {
   static constexpr const char* name = "sphere";
   static constexpr const char* summary = "ball; a disc in 2D, an interval in 1D";
-  static constexpr bool is_bounded = true, is_container = false;
+  static constexpr bool is_bounded = true, is_container = true;
   Vec3 center = Vec3::Zero();
   double radius = 0;
 };

@@ -12,6 +12,7 @@
 #include "run/plane_wave_start.hpp"
 #include "run/room.hpp"
 #include "run/spherical_start.hpp"
+#include "scene/revolution.hpp"
 #include "core/shapes.hpp"
 
 namespace undex::run {
@@ -33,13 +34,6 @@ std::string duration(double seconds) {
   return format("about %.1f h", seconds / 3600);
 }
 
-Bounds kept_part(const scene::Scene& scene) {
-  Bounds part{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
-  for (int a = 0; a < 3; ++a)
-    if (scene.fluid.symmetry.axis[a]) part.low[a] = 0;
-  return part;
-}
-
 const char* const unit[3] = {"m", "m^2", "m^3"};  // of a volume, by dimension
 
 std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
@@ -48,8 +42,8 @@ std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
   std::string text;
   for (std::size_t i = 0; i < count.size(); ++i) {
     const sph::Body& body = scene.fluid.bodies[i];
-    text += format("  %-16s %10zu particles  %.6g %s of %s\n", body.name.c_str(), count[i],
-                   volume(body.shape, kept_part(scene), dimension), unit[dimension - 1], body.material.name.c_str());
+    text += format("  %-16s %10zu particles  %.6g %s of %s\n", body.name.c_str(), count[i], scene::kept_volume(body.shape, scene),
+                   unit[dimension - 1], body.material.name.c_str());
   }
   return text + format("  %-16s %10zu particles\n", "walls", fluid.wall_particle_count());
 }
@@ -87,6 +81,17 @@ std::string temperature_notes(const scene::Scene& scene) {
   return text;
 }
 
+/// A scene in space may be one of revolution.
+std::string revolution_note(const scene::Scene& scene) {
+  if (scene.meridian || scene.fluid.dimension != 3) return "";
+  const int axis = scene::likeliest_axis(scene);
+  if (!scene::objections(scene, scene::line_along(scene, axis)).empty()) return "";
+  return format(
+      "note: all of it is of revolution about an axis along %c: -P dimension=axisymmetric computes it in its meridian, at "
+      "a fraction of the cost\n",
+      "xyz"[axis]);
+}
+
 }  // namespace
 
 std::string describe(const scene::Scene& given) {
@@ -95,8 +100,9 @@ std::string describe(const scene::Scene& given) {
   std::string planes;
   for (int a = 0; a < 3; ++a)
     if (scene.fluid.symmetry.axis[a]) planes += std::string(planes.empty() ? "" : ", ") + "xyz"[a];
-  const std::string space = on_a_line(scene.geometry)
-                                ? word_of(scene.geometry)
+  const std::string space = on_a_line(scene.geometry) ? word_of(scene.geometry)
+                            : scene.meridian
+                                ? format("axisymmetric about an axis along %c", "xyz"[scene.axis])
                                 : format("%d dimension%s", scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s");
   std::string text = format("%s: %s\n%s, symmetry planes: %s, to %.6g us\n", scene.name.c_str(), scene.title.c_str(),
                             space.c_str(), planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
@@ -122,6 +128,7 @@ std::string describe(const scene::Scene& given) {
   }
 
   text += temperature_notes(scene);
+  text += revolution_note(scene);
   for (const std::string& warning : warnings_of(scene, std::filesystem::path("out") / scene.name))
     text += "warning: " + warning + "\n";
 

@@ -25,6 +25,13 @@ output::LastField last_field(const Simulation& simulation, const std::string& na
   } else if (name == "body.position" && !simulation.bodies().empty()) {
     for (const Vec3& x : simulation.bodies().front()->positions()) last.values.insert(last.values.end(), x.begin(), x.end());
   }
+  if (const std::optional<Meridian>& meridian = simulation.meridian(); meridian && last.components == 3) {
+    const Vec3 outward = meridian->outward();
+    for (std::size_t k = 0; k < last.values.size(); k += 3) {
+      Eigen::Map<Vec3> value(last.values.data() + k);
+      value = field == "position" ? meridian->place_in_space(value, outward) : meridian->vector_in_space(value, outward);
+    }
+  }
   return last;
 }
 

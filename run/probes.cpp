@@ -40,6 +40,24 @@ std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x,
   return [x] { return x; };
 }
 
+/// What is read of a scene's meridian, in space: in the half-plane of the probe.
+FluidPoint in_space(FluidPoint point, const Meridian& meridian, const Vec3& outward) {
+  point.velocity = meridian.vector_in_space(point.velocity, outward);
+  return point;
+}
+MaterialPoint in_space(MaterialPoint point, const Meridian& meridian, const Vec3& outward) {
+  point.position = meridian.place_in_space(point.position, outward);
+  for (Vec3* vector : {&point.displacement, &point.velocity, &point.acceleration})
+    *vector = meridian.vector_in_space(*vector, outward);
+  point.stress = meridian.tensor_in_space(point.stress, outward);
+  return point;
+}
+template <class Point>
+std::function<Point()> in_space(std::function<Point()> point, const std::optional<Meridian>& meridian, const Vec3& x) {
+  if (!meridian) return point;
+  return [=, line = *meridian, outward = meridian->outward_at(x)] { return in_space(point(), line, outward); };
+}
+
 /// The fluid at x, or on the wall or body near it.
 std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3& x, bool on_wall, double reach) {
   if (const LineFlow* line = simulation.line()) {
@@ -55,19 +73,21 @@ std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
   const int dimension = scene.structure ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty()) std::filesystem::create_directories(folder / "history");
+  const std::optional<Meridian>& meridian = simulation.meridian();
   for (const scene::Probe& probe : scene.probes) {
+    const Vec3 x = meridian ? meridian->place(probe.point) : probe.point;
     std::vector<output::Column> columns{{"time", "s"}};
     Read read;
     if (probe.kind == scene::Probe::Kind::structure) {
       const auto quantities = chosen(material_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      read = reader<MaterialPoint>(quantities, dimension, material_point(simulation, probe.point));
+      read = reader<MaterialPoint>(quantities, dimension, in_space(material_point(simulation, x), meridian, probe.point));
     } else {
       const auto quantities = chosen(fluid_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
       const bool on_wall = probe.kind == scene::Probe::Kind::wall;
-      read = reader<FluidPoint>(quantities, dimension,
-                                fluid_point(simulation, probe.point, on_wall, 2.0 * scene.fluid.lattice.spacing));
+      const auto point = fluid_point(simulation, x, on_wall, 2.0 * scene.fluid.lattice.spacing);
+      read = reader<FluidPoint>(quantities, dimension, in_space(point, meridian, probe.point));
     }
     channels_.push_back({.probe = probe,
                          .read = std::move(read),

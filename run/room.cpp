@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/shapes.hpp"
 #include "scene/line.hpp"
+#include "scene/revolution.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/walls/lattice_warnings.hpp"
 
@@ -61,6 +62,12 @@ double particles_lining(const sph::Wall& wall, const sph::Settings& fluid) {
   return (size(depth) - size(0)) / std::pow(dx, fluid.dimension);
 }
 
+/// Where a body of revolution begins along its axis [m].
+double low_of(const auto& mesh) {
+  if constexpr (requires { mesh.axis; }) return mesh.low;
+  else return 0.0;
+}
+
 double cells_of(const fem::Settings& structure) {
   double share = 1;
   const auto cut = [&](int axis, double low) {
@@ -68,6 +75,11 @@ double cells_of(const fem::Settings& structure) {
         std::find(structure.symmetry_axes.begin(), structure.symmetry_axes.end(), axis) != structure.symmetry_axes.end())
       share *= 0.5;
   };
+  if (structure.axisymmetric) {
+    cut(1, std::visit([](const auto& mesh) { return low_of(mesh); }, structure.mesh));
+    if (const auto* tube = std::get_if<fem::TubeMesh>(&structure.mesh)) return share * tube->cells_through * tube->cells_along;
+    if (const auto* rod = std::get_if<fem::RodMesh>(&structure.mesh)) return share * rod->cells_radial * rod->cells_along;
+  }
   if (const auto* gmsh = std::get_if<fem::GmshMesh>(&structure.mesh)) return gmsh->read ? double(gmsh->read->cells.size()) : 0.0;
   std::visit(
       [&](const auto& mesh) {
@@ -109,7 +121,8 @@ double count_of(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-Room room_of(const scene::Scene& scene) {
+Room room_of(const scene::Scene& given) {
+  const scene::Scene scene = scene::for_solvers(given);
   Room room;
   const sph::Settings& fluid = scene.fluid;
   if (on_a_line(scene.geometry)) {
@@ -159,7 +172,8 @@ std::string expect_room(const scene::Scene& scene) {
   if (room.bytes <= limit) return words;
   if (bytes_of_cell * room.cells > 0.5 * room.bytes)
     throw SceneError(scene.file.string(), {scene.places.finding("structure.cells", words + "; take fewer or larger cells")});
-  const double larger = scene.fluid.lattice.spacing * std::pow(room.bytes / limit, 1.0 / scene.fluid.dimension);
+  const double larger =
+      scene.fluid.lattice.spacing * std::pow(room.bytes / limit, 1.0 / (scene.meridian ? 2 : scene.fluid.dimension));
   std::snprintf(text, sizeof text, "; take a spacing of %.2g m or more, symmetry planes, or smaller bodies", larger);
   throw SceneError(scene.file.string(), {scene.places.finding("resolution.spacing", words + text)});
 }
@@ -192,7 +206,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene, const std::files
     warnings.push_back("snapshots and histories take about " + gigabytes(written) + ", and " + gigabytes(free) + " are free at " +
                        folder.string() + "; take longer intervals (output.field_interval, output.history_interval)");
   if (on_a_line(scene.geometry)) return warnings;
-  const std::vector<std::string> lattice = sph::lattice_warnings(scene.fluid);
+  const std::vector<std::string> lattice = sph::lattice_warnings(scene::for_solvers(scene).fluid);
   warnings.insert(warnings.end(), lattice.begin(), lattice.end());
   return warnings;
 }

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "fem_structure/structure.hpp"
+#include "scene/revolution.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_solid/solids.hpp"
 
@@ -26,7 +27,8 @@ std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
       if (found == wall.faces.end()) return true;
       return found->second != sph::FaceCondition::open;
     };
-    if (const auto* round = std::get_if<Cylinder>(&wall.container))
+    if (std::holds_alternative<Sphere>(wall.container)) pushed[a] = closed("side");
+    else if (const auto* round = std::get_if<Cylinder>(&wall.container))
       pushed[a] = a == round->axis ? closed("low") || closed("high") : closed("side");
     else pushed[a] = closed(std::string(1, "xyz"[a]) + "_low") || closed(std::string(1, "xyz"[a]) + "_high");
   }
@@ -103,9 +105,10 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 
 }  // namespace
 
-Simulation::Simulation(const scene::Scene& scene) {
-  build(scene);
-  take_start(scene);
+Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
+  const scene::Scene solved = scene::for_solvers(scene);
+  build(solved);
+  take_start(solved);
 }
 
 void Simulation::build(const scene::Scene& scene) {
@@ -152,12 +155,14 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
-  if (scene.geometry != scene::Geometry::spherical)  // there the whole sphere is computed
-    for (int a = 0; a < 3; ++a)
+  // A ring is whole, and of concentric spheres all is computed.
+  if (scene.geometry != scene::Geometry::spherical)
+    for (int a = meridian_ ? 1 : 0; a < 3; ++a)
       if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
   balanced_ = balanced_axes(scene);
   gravity_ = scene.fluid.gravity;
-  closed_ = copies_ == 1 && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() && !scene.structure;
+  closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
+            !scene.structure;
   start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();

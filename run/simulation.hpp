@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/deformable_body.hpp"
+#include "core/meridian.hpp"
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
 #include "run/line_flow.hpp"
@@ -34,7 +35,7 @@ struct EnergyBalance {
 
 class Simulation {
  public:
-  /// Throws SceneError where a solver refuses its part of the scene.
+  /// An axisymmetric scene is computed in its meridian. Throws SceneError where a solver refuses its part of the scene.
   explicit Simulation(const scene::Scene& scene);
 
   double time() const;
@@ -67,6 +68,8 @@ class Simulation {
   /// Seconds per pass of all solvers.
   output::NamedNumbers passes() const;
 
+  /// The meridian in which solvers see an axisymmetric scene: their places, and vectors, are (r, axial, 0).
+  const std::optional<Meridian>& meridian() const { return meridian_; }
   const sph::Fluid* fluid() const { return fluid_.get(); }  ///< in particles; null: none
   const LineFlow* line() const { return line_.get(); }      ///< where all is on the one-dimensional mesh; else null
   bool has_fluid() const { return fluid_ || line_; }
@@ -88,6 +91,7 @@ class Simulation {
   Vec3 impulse() const;
   Vec3 angular_momentum() const;
 
+  std::optional<Meridian> meridian_;
   std::unique_ptr<LineFlow> line_;
   std::unique_ptr<sph::Fluid> fluid_;
   std::vector<std::unique_ptr<DeformableBody>> bodies_;

@@ -40,6 +40,20 @@ BodySnapshot snapshot_of(const Simulation& simulation, const std::vector<std::st
   return snapshot;
 }
 
+/// Places and vectors of a meridian, in the half-plane that stands for all.
+BodySnapshot in_space(BodySnapshot snapshot, const std::optional<Meridian>& meridian) {
+  if (!meridian) return snapshot;
+  const Vec3 outward = meridian->outward();
+  for (Vec3& x : snapshot.position) x = meridian->place_in_space(x, outward);
+  for (Fields* fields : {&snapshot.of_points, &snapshot.of_cells})
+    for (BodySnapshot::Field& field : *fields)
+      for (std::size_t k = 0; field.components == 3 && k < field.values.size(); k += 3) {
+        Eigen::Map<Vec3> vector(field.values.data() + k);
+        vector = meridian->vector_in_space(vector, outward);
+      }
+  return snapshot;
+}
+
 void write_particles(double time, BodySnapshot snapshot, const std::vector<std::int64_t>& ids, bool at_stop,
                      output::ParticleFields& file) {
   if (at_stop) flag(snapshot.of_points);
@@ -112,19 +126,20 @@ bool Snapshots::write_at_stop() {
 
 void Snapshots::write(bool at_stop) {
   last_time_ = simulation_.time();
+  const std::optional<Meridian>& meridian = simulation_.meridian();
   // A coupled run that is stopped has its solvers up to a step apart.
   if (water_) {
     const std::vector<double> id = simulation_.fluid_field("id");
-    write_particles(simulation_.time(), snapshot_of(simulation_, wanted_.particle_fields), {id.begin(), id.end()}, at_stop,
-                    *water_);
+    write_particles(simulation_.time(), in_space(snapshot_of(simulation_, wanted_.particle_fields), meridian),
+                    {id.begin(), id.end()}, at_stop, *water_);
   }
   for (BodyFile& file : bodies_) {
     const double time = file.body->time();
-    if (file.cells) write_cells(time, file.body->snapshot({}), at_stop, *file.cells);
+    if (file.cells) write_cells(time, in_space(file.body->snapshot({}), meridian), at_stop, *file.cells);
     if (!file.particles) continue;
     std::vector<std::int64_t> ids(file.body->size().particles);
     std::iota(ids.begin(), ids.end(), 0);
-    write_particles(time, file.body->snapshot(wanted_.solid_fields), ids, at_stop, *file.particles);
+    write_particles(time, in_space(file.body->snapshot(wanted_.solid_fields), meridian), ids, at_stop, *file.particles);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "run/spherical_flow.hpp"
 #include "scene/numbers.hpp"
+#include "scene/revolution.hpp"
 #include "sph_fluid/lattice.hpp"
 
 namespace undex::run {
@@ -134,10 +135,7 @@ std::string begin_spherically(scene::Scene& scene, const StartProgress& progress
   const double radius = flow->interface_radius(0);
   for (const sph::Body* body : {&charge, &medium})
     if (body->spacing && *body->spacing > radius) refuse(scene, "the spacing of '" + body->name + "' exceeds the charge");
-  Bounds window = bounds(medium.shape, 3);
-  for (int a = 0; a < 3; ++a)
-    if (fluid.symmetry.axis[a]) window.low[a] = 0.0;
-  const double medium_mass = start_density(medium) * volume(medium.shape, window, 3);
+  const double medium_mass = start_density(medium) * scene::kept_volume(medium.shape, scene);
   const double charge_mass = share * start_density(charge) * 4.0 / 3.0 * M_PI * std::pow(sphere.radius, 3);
   charge.start = field_of(flow, 0, sphere.center, charge, charge_mass, share);
   medium.start = field_of(flow, 1, sphere.center, medium, medium_mass, share);

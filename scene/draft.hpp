@@ -47,7 +47,10 @@ void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_schem
 void read_structure(Draft& draft);  // read_structure.cpp: [structure], [coupling]
 void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [start]
 void read_comparison(Draft& draft, const std::vector<ComparisonKind>& kinds);  // read_comparison.cpp: [comparison]
-void validate(Draft& draft);                                                   // validate.cpp: what single keys cannot tell
+/// validate_revolution.cpp: finds the axis of an axisymmetric scene, complains of what is not of revolution about it, and leaves
+/// out planes of symmetry through it.
+void settle_revolution(Draft& draft);
+void validate(Draft& draft);  // validate.cpp: what single keys cannot tell
 
 /// The name of a table element in messages: "bodies.water", or "bodies.0" where it has no usable name.
 std::string element_path(const char* list, const Node& element, std::size_t index);

@@ -13,13 +13,13 @@ std::vector<std::string> box_faces(int dimension) {
 }  // namespace
 
 std::vector<std::string> wall_faces(const Primitive& container, int dimension) {
-  if (std::holds_alternative<Sphere>(container)) return {"side"};
   if (const auto* cylinder = std::get_if<Cylinder>(&container)) {
     std::vector<std::string> names;
     if (dimension > 1 || cylinder->axis != 0) names.push_back("side");
     if (cylinder->axis < dimension) names.insert(names.end(), {"low", "high"});
     return names;
   }
+  if (std::holds_alternative<Sphere>(container)) return {"side"};
   return box_faces(dimension);
 }
 

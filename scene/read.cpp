@@ -92,6 +92,7 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   read_structure(draft);
   read_output(draft);
   read_comparison(draft, kinds);
+  settle_revolution(draft);
   validate(draft);
   if (!draft.report.empty()) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
   draft.scene.places = Places(draft.root);

@@ -246,10 +246,12 @@ void read_wall(const Node& node, const std::string& path, Draft& draft) {
   wall.name = std::to_string(draft.wall_nodes.size());
   read_fields(table, wall);
   const Node* shape = table.find("shape");
-  const bool spherical = draft.scene.geometry == Geometry::spherical;
-  const std::vector<std::string> containers = spherical ? std::vector<std::string>{Sphere::name} : container_names();
-  const bool good =
-      shape && read_shape(*shape, table.path_of("shape"), table.dimension(), containers, draft.report, wall.container);
+  bool good =
+      shape && read_shape(*shape, table.path_of("shape"), table.dimension(), container_names(), draft.report, wall.container);
+  if (good && table.dimension() == 1 && std::holds_alternative<Sphere>(wall.container)) {
+    table.complain("shape", table.path_of("shape") + ": in one dimension a wall is a \"box\"");
+    good = false;
+  }
   FaceCondition otherwise = FaceCondition::free_slip;
   table.read_choice("condition", otherwise, choices<FaceCondition>());
   if (good) read_faces(table, otherwise, wall);

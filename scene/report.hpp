@@ -12,6 +12,7 @@ namespace undex::scene {
 class Report {
  public:
   void add(Where where, std::string message) { findings_.push_back({where, std::move(message)}); }
+  void add(Finding finding) { findings_.push_back(std::move(finding)); }
   /// At a value of the scene, or at the command-line override that gave it.
   void add(const Node& node, const std::string& message) { add_at(node.where, node.origin, message); }
   /// At the key.

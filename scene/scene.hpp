@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/meridian.hpp"
 #include "core/record.hpp"
 #include "coupling/settings.hpp"
 #include "fem_structure/settings.hpp"
@@ -204,8 +205,10 @@ struct Scene {
   std::filesystem::path file;  ///< where it was read from
   double end_time = 0;         ///< [s]
   Geometry geometry = Geometry::cartesian;
-  sph::Settings fluid;     ///< and what all particles share; without bodies where there is no fluid
-  solid::Settings solids;  ///< solids in particles; rigid planes for structures too
+  int axis = 2;                      ///< of revolution, of an axisymmetric scene
+  std::optional<Meridian> meridian;  ///< of an axisymmetric scene: places are in space, solvers compute in it
+  sph::Settings fluid;               ///< and what all particles share; without bodies where there is no fluid
+  solid::Settings solids;            ///< solids in particles; rigid planes for structures too
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
   Start start;
@@ -229,6 +232,11 @@ void describe(Scene& scene, Visit&& visit) {
                     .values = "1, 2, 3, \"axisymmetric\", \"spherical\", \"plane\"",
                     .meaning = "of space; a structure needs 3, solids 2 (plane strain) or 3. Or a symmetry that leaves fewer "
                                "coordinates than the scene is written in"});
+  visit(scene.axis, {.name = "axis",
+                     .rule = "that about which all is of revolution",
+                     .form = Form::axis,
+                     .used = scene.geometry == Geometry::axisymmetric,
+                     .meaning = "\"axisymmetric\": along which the axis of revolution runs"});
   visit(scene.end_time, {.name = "end_time",
                          .unit = "s",
                          .range = Range::above(0, 1e3),

@@ -29,7 +29,6 @@ Validator::Validator(Draft& draft)
 }
 
 void Validator::run() {
-  geometry();
   names();
   parts();
   if (on_a_line(scene_.geometry)) {
@@ -130,12 +129,6 @@ void Validator::names() {
         complain(*draft_.solid_nodes[i], "name", "solids: the name '" + body.name + "' is that of a body; choose another one");
   unique("walls", fluid_.walls, draft_.wall_nodes);
   unique("probes", scene_.probes, draft_.probe_nodes);
-}
-
-void Validator::geometry() {
-  if (scene_.geometry == Geometry::axisymmetric)
-    complain(draft_.root, "dimension",
-             std::string("dimension = \"") + word_of(scene_.geometry) + "\" is not built yet; give a number of coordinates");
 }
 
 void Validator::parts() {

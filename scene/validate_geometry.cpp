@@ -90,6 +90,8 @@ Primitive opened(const sph::Wall& wall) {
     }
     return larger;
   }
+  if (const auto* sphere = std::get_if<Sphere>(&wall.container))
+    return Sphere{sphere->center, open("side") ? far : sphere->radius};
   Cylinder larger = std::get<Cylinder>(wall.container);
   if (open("side")) larger.radius = far;
   if (open("low")) larger.low = -far;

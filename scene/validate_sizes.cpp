@@ -1,4 +1,5 @@
 // Sizes that do not go together: a mesh in millimetres, walls far beyond the water, more particles than can be counted.
+#include "scene/revolution.hpp"
 #include "scene/validator.hpp"
 
 namespace undex::scene {
@@ -55,6 +56,7 @@ void Validator::size_of_structure(double of_bodies) {
 }
 
 void Validator::size_of_walls(double of_bodies) {
+  const Scene solved = for_solvers(scene_);
   for (std::size_t w = 0; w < fluid_.walls.size(); ++w) {
     if (!draft_.wall_shape_good[w]) continue;
     const sph::Wall& wall = fluid_.walls[w];
@@ -66,7 +68,9 @@ void Validator::size_of_walls(double of_bodies) {
                    " times as long as all bodies together (" + rounded(of_bodies) +
                    " m): is it in millimetres? Make it end where the water may get to, or open the faces that nothing reaches");
     else if (draft_.spacing_good) {
-      const double points = box_volume(common(kept_, extent), dimension_) / std::pow(fluid_.lattice.spacing, dimension_);
+      const int dimension = solved.fluid.dimension;
+      const Bounds walked = common(kept_part(solved.fluid.symmetry.axis), bounds(solved.fluid.walls[w].container, dimension));
+      const double points = box_volume(walked, dimension) / std::pow(fluid_.lattice.spacing, dimension);
       if (points > most_walked)
         complain(*draft_.wall_nodes[w], "shape",
                  "walls." + wall.name + " holds " + rounded(points) + " points of the lattice, more than " +
@@ -76,19 +80,23 @@ void Validator::size_of_walls(double of_bodies) {
 }
 
 void Validator::counts() {
+  const Scene solved = for_solvers(scene_);
+  const int dimension = solved.fluid.dimension;
+  const Bounds kept = kept_part(solved.fluid.symmetry.axis);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& one = parts_[i];
     if (!usable_[i] || !(draft_.spacing_good || one.spacing)) continue;
-    const double spacing = one.spacing.value_or(fluid_.lattice.spacing), cell = std::pow(spacing, dimension_);
-    const Bounds window = common(kept_, bounds(*one.shape, dimension_));
-    if (box_volume(window, dimension_) / most_particles < cell) continue;
-    const double particles = volume(*one.shape, window, dimension_) / cell;
+    const Shape& shape = is_fluid(i) ? solved.fluid.bodies[i].shape : solved.solids.bodies[i - fluid_.bodies.size()].shape;
+    const double spacing = one.spacing.value_or(fluid_.lattice.spacing), cell = std::pow(spacing, dimension);
+    const Bounds window = common(kept, bounds(shape, dimension));
+    if (box_volume(window, dimension) / most_particles < cell) continue;
+    const double particles = volume(shape, window, dimension) / cell;
     if (particles < most_particles) continue;
     const Node* resolution = draft_.root.find("resolution");
     complain(one.spacing || !resolution ? *one.node : *resolution, "spacing",
              one.path() + " would get " + rounded(particles) + " particles of spacing " + rounded(spacing) + " m, more than " +
                  rounded(most_particles) + "; take a larger spacing: " +
-                 rounded(std::pow(volume(*one.shape, window, dimension_) / most_particles, 1.0 / dimension_)) + " m at least");
+                 rounded(std::pow(volume(shape, window, dimension) / most_particles, 1.0 / dimension)) + " m at least");
   }
 }
 

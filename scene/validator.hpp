@@ -38,7 +38,6 @@ class Validator {
   };
 
   // validate.cpp
-  void geometry();
   void names();
   void parts();
   void collect();

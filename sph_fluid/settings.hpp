@@ -87,11 +87,9 @@ void describe(Lattice& lattice, Visit&& visit) {
   visit(lattice.spacing, {.name = "spacing",
                           .unit = "m",
                           .range = Range::length(),
-                          .rule = "required with bodies, and with solids without a spacing of their own; on a mesh a 400th of "
-                                  "the core",
+                          .rule = "required with bodies, and with solids without a spacing of their own",
                           .used = lattice.spacing > 0,
-                          .meaning = "distance of particles, dx; with `dimension` \"spherical\" or \"plane\" the width of "
-                                     "cells in the core, which is the charge or the innermost body"});
+                          .meaning = "distance of particles, dx"});
   visit(lattice.type, {.name = "lattice",
                        .meaning = "\"rings\": concentric rings about an axis, quietest at a cylindrical wall; "
                                   "not in 1D"});
@@ -236,16 +234,16 @@ inline materials::HydrostaticColumn hydrostatic_column(const Body& body, const V
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
 struct Wall {
   std::string name;
-  Primitive container;                         ///< Box or Cylinder (the fluid's side is inside)
-  std::map<std::string, FaceCondition> faces;  ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"
+  Primitive container;                         ///< Box, Cylinder or Sphere (the fluid's side is inside)
+  std::map<std::string, FaceCondition> faces;  ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"; sphere: "side"
 };
 template <class Visit>
 void describe(Wall& wall, Visit&& visit) {
   visit(wall.name, {.name = "name", .needed = true, .remedy = "every wall has a name", .form = Form::name});
   visit(ByHand{}, {.name = "shape",
                    .needed = true,
-                   .remedy = "a box or cylinder round the fluid",
-                   .values = "box or cylinder; sphere with `dimension` \"spherical\"",
+                   .remedy = "a box, cylinder or sphere round the fluid",
+                   .values = "box, cylinder, sphere",
                    .meaning = "the inside"});
   visit(ByHand{}, {.name = "condition",
                    .rule = "\"free_slip\"",

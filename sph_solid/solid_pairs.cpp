@@ -219,7 +219,8 @@ PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   in.artificial_stress = settings_.numerics.artificial_stress;
   in.spacing = ranges_[0].spacing;
   if (!images_.empty())
-    in.images = {image_place_[0].data(), image_place_[1].data(), image_place_[2].data(), image_rows_.data(), image_solid_.data()};
+    in.images = {image_place_[0].data(), image_place_[1].data(), image_place_[2].data(),
+                 image_rows_.data(),     image_solid_.data(),    nullptr};
   in.groups = views.data();
   in.group_count = int(views.size());
   in.contact_damping = contact_damping;

@@ -1,5 +1,7 @@
 #include "sph_fluid/schemes/loops.hpp"
 
+#include <stdexcept>
+
 #include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::sph {
@@ -12,14 +14,18 @@ PairLoops put_together(KernelName kernel, CompiledLoop rates, PairLoop gradients
 }  // namespace
 
 // Every scheme's loops are functions of the instruction sets' namespaces, defined in files made of schemes/loop.cpp.in.
-#define UNDEX_DECLARE(pass) CompiledLoop pass(KernelName, Precision), pass##_of_rings(KernelName, Precision);
-#define UNDEX_DECLARE_ONE(name, ...) UNDEX_DECLARE(name##_rates)
-#define UNDEX_DECLARE_TWO(name, ...) UNDEX_DECLARE(name##_rates) UNDEX_DECLARE(name##_gradients)
-#define UNDEX_PASS(pass) (rings ? pass##_of_rings : pass)(kernel, precision)
-#define UNDEX_CHOOSE_ONE(name, ...) \
-  if (scheme == SchemeName::name) return put_together(kernel, UNDEX_PASS(name##_rates), nullptr);
-#define UNDEX_CHOOSE_TWO(name, ...) \
-  if (scheme == SchemeName::name) return put_together(kernel, UNDEX_PASS(name##_rates), UNDEX_PASS(name##_gradients).run);
+#define UNDEX_DECLARE_no_rings(pass) CompiledLoop pass(KernelName, Precision);
+#define UNDEX_DECLARE_rings(pass) CompiledLoop pass(KernelName, Precision), pass##_of_rings(KernelName, Precision);
+#define UNDEX_DECLARE_ONE(name, rates, kind, ringed, ...) UNDEX_DECLARE_##ringed(name##_rates)
+#define UNDEX_DECLARE_TWO(name, rates, gradients, kind, ringed, ...) \
+  UNDEX_DECLARE_##ringed(name##_rates) UNDEX_DECLARE_##ringed(name##_gradients)
+#define UNDEX_PASS_no_rings(pass) pass(kernel, precision)
+#define UNDEX_PASS_rings(pass) (rings ? pass##_of_rings : pass)(kernel, precision)
+#define UNDEX_CHOOSE_ONE(name, rates, kind, ringed, ...) \
+  if (scheme == SchemeName::name) return put_together(kernel, UNDEX_PASS_##ringed(name##_rates), nullptr);
+#define UNDEX_CHOOSE_TWO(name, rates, gradients, kind, ringed, ...) \
+  if (scheme == SchemeName::name)                                   \
+    return put_together(kernel, UNDEX_PASS_##ringed(name##_rates), UNDEX_PASS_##ringed(name##_gradients).run);
 #define UNDEX_LOOPS_OF(level)                                                                     \
   namespace level {                                                                               \
   UNDEX_SCHEMES(UNDEX_DECLARE_ONE, UNDEX_DECLARE_TWO)                                             \
@@ -34,6 +40,7 @@ UNDEX_LOOPS_OF(v3)
 UNDEX_LOOPS_OF(v2)
 
 PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision, bool rings) {
+  if (rings && !has_rings(scheme)) throw std::invalid_argument("scheme.name: this scheme does not compute rings about an axis");
   switch (chosen_cpu_level()) {
     case CpuLevel::v4: return v4::loops(kernel, scheme, precision, rings);
     case CpuLevel::v3: return v3::loops(kernel, scheme, precision, rings);

@@ -17,7 +17,8 @@ struct PairLoops {
 };
 
 /// The loops of the best instruction set that this machine has; the environment variable UNDEX_CPU_LEVEL (x86-64-v2, -v3,
-/// -v4) asks for a lower one. `rings`: those over rings about an axis (schemes/rings.hpp).
+/// -v4) asks for a lower one. `rings`: those over rings about an axis (schemes/rings.hpp); throws
+/// std::invalid_argument where the scheme has none.
 PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision, bool rings = false);
 
 }  // namespace undex::sph

@@ -4,6 +4,7 @@
 //   rates          the pass that gives forces, rates of density and heat
 //   gradients      TWO_PASSES only: the pass before it
 //   viscous        dissipates by Monaghan's viscosity, which limits the step; or inviscid
+//   rings          also over rings about an axis, in axisymmetric scenes; or no_rings
 //   kernels        those with a compiled loop of their own; one more serves all others (AnyKernel)
 #pragma once
 
@@ -13,11 +14,11 @@ namespace undex::sph {
 
 // clang-format off
 #define UNDEX_SCHEMES(ONE_PASS, TWO_PASSES)                                                      \
-  ONE_PASS(monaghan, Monaghan, viscous, Gaussian, WendlandC2)                                    \
-  ONE_PASS(monaghan_switch, MonaghanSwitch, viscous)                                             \
-  ONE_PASS(paper, Paper, viscous)                                                                \
-  TWO_PASSES(riemann, Riemann, Reconstruction, inviscid, Gaussian, WendlandC2)                   \
-  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid)
+  ONE_PASS(monaghan, Monaghan, viscous, rings, Gaussian, WendlandC2)                             \
+  ONE_PASS(monaghan_switch, MonaghanSwitch, viscous, no_rings)                                   \
+  ONE_PASS(paper, Paper, viscous, no_rings)                                                      \
+  TWO_PASSES(riemann, Riemann, Reconstruction, inviscid, rings, Gaussian, WendlandC2)            \
+  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid, rings)
 // clang-format on
 
 enum class SchemeName {
@@ -42,6 +43,17 @@ constexpr bool is_viscous(SchemeName scheme) {
 #undef UNDEX_ONE
 #undef UNDEX_TWO
   return kinds[int(scheme)];
+}
+
+/// Does the scheme compute rings about an axis?
+constexpr bool has_rings(SchemeName scheme) {
+  constexpr bool rings = true, no_rings = false;
+#define UNDEX_ONE(name, rates, kind, ringed, ...) ringed,
+#define UNDEX_TWO(name, rates, gradients, kind, ringed, ...) ringed,
+  constexpr bool ringed[] = {UNDEX_SCHEMES(UNDEX_ONE, UNDEX_TWO)};
+#undef UNDEX_ONE
+#undef UNDEX_TWO
+  return ringed[int(scheme)];
 }
 
 }  // namespace undex::sph

@@ -53,12 +53,13 @@ void warn_of_slip_walls(const Settings& settings, std::vector<std::string>& warn
       warnings.push_back(text);
     }
   }
-  for (const Cylinder& wall : faces.round) {
+  for (const SlipFaces::Round& wall : faces.round) {
     if (grid.rings && grid.axis == wall.axis && off(wall.radius, grid.ring_width) < 1e-6) continue;
     std::snprintf(text, sizeof text,
-                  "the lattice meets the round slip wall of radius %g m in steps, and pressure beside it is off; choose "
-                  "resolution.lattice = \"rings\", with the wall or a body that fills it in resolution.fit",
-                  wall.radius);
+                  "the lattice meets the round slip wall of radius %g m in steps, and pressure beside it is off%s", wall.radius,
+                  wall.axis < 0 ? ""
+                                : "; choose resolution.lattice = \"rings\", with the wall or a body that fills it in "
+                                  "resolution.fit");
     warnings.push_back(text);
   }
 }

@@ -55,8 +55,15 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
         away[cylinder->axis] = z - cylinder->high;
       }
     }
+  } else if (const auto* sphere = std::get_if<Sphere>(&container)) {
+    const Vec3 radial = x - sphere->center;
+    const double r = radial.norm();
+    if (r > sphere->radius) {
+      result.faces.push_back("side");
+      away = radial * ((r - sphere->radius) / r);
+    }
   } else {
-    throw std::invalid_argument("a wall must be a box or a cylinder");
+    throw std::invalid_argument("a wall must be a box, a cylinder or a sphere");
   }
   result.distance = away.norm();
   const int faces = int(result.faces.size());

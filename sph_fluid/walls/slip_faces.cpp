@@ -27,8 +27,16 @@ SlipFaces slip_faces(const Settings& settings) {
       result.plane.push_back({.axis = axis, .low = low_at, .high = high_at, .symmetric = cut, .window = window});
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
-      if (slips("side")) result.round.push_back(*cylinder);
-      if (settings.dimension == 3) add(cylinder->axis, "low", "high");
+      const bool ends = settings.dimension == 3;  // in the plane it has none
+      if (slips("side"))
+        result.round.push_back({.center = cylinder->center,
+                                .radius = cylinder->radius,
+                                .axis = cylinder->axis,
+                                .low = ends ? cylinder->low : -1e300,
+                                .high = ends ? cylinder->high : 1e300});
+      if (ends) add(cylinder->axis, "low", "high");
+    } else if (const auto* sphere = std::get_if<Sphere>(&wall.container)) {
+      if (slips("side")) result.round.push_back({.center = sphere->center, .radius = sphere->radius});
     } else {
       for (int a = 0; a < settings.dimension; ++a) {
         const std::string name(1, "xyz"[a]);
@@ -43,32 +51,41 @@ double clearance(const SlipFaces& faces, const Bounds& box) {
   double least = 1e300;
   for (const SlipFaces::Pair& pair : faces.plane)
     least = std::min({least, pair.symmetric ? 1e300 : box.low[pair.axis] - pair.low, pair.high - box.high[pair.axis]});
-  for (const Cylinder& wall : faces.round) {
+  for (const SlipFaces::Round& wall : faces.round) {
     Vec3 away = (box.low - wall.center).cwiseAbs().cwiseMax((box.high - wall.center).cwiseAbs());
-    away[wall.axis] = 0.0;
+    if (wall.axis >= 0) away[wall.axis] = 0.0;
     least = std::min(least, wall.radius - away.norm());
   }
   return std::max(least, 0.0);
 }
 
-std::optional<Reflection> image_in(const Cylinder& wall, const Vec3& x, double depth, int dimension) {
-  if (dimension == 3 && (x[wall.axis] < wall.low - depth || x[wall.axis] > wall.high + depth)) return {};
-  Vec3 away = x - wall.center;
-  away[wall.axis] = 0.0;
+Vec3 SlipFaces::Round::away(const Vec3& x) const {
+  Vec3 result = x - center;
+  if (axis >= 0) result[axis] = 0.0;
+  return result;
+}
+
+bool SlipFaces::Round::is_beside(const Vec3& x, double beyond) const {
+  return axis < 0 || (x[axis] >= low - beyond && x[axis] <= high + beyond);
+}
+
+std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, double depth, int dimension) {
+  if (!wall.is_beside(x, depth)) return {};
+  const Vec3 away = wall.away(x);
   const double r = away.norm();
   if (r <= wall.radius - depth || r > wall.radius) return {};
   Reflection image;
   image.normal = away / r;
   const double behind = 2.0 * wall.radius - r;
   image.place = x + (behind - r) * image.normal;
-  image.stretch = image_volume(behind / r);
+  const double wider = behind / r;
+  image.stretch = image_volume(wall.axis < 0 && dimension == 3 ? wider * wider : wider);
   return image;
 }
 
-std::optional<Crossing> crossing(const Cylinder& wall, const Vec3& x, double far, int dimension) {
-  if (dimension == 3 && (x[wall.axis] < wall.low - far || x[wall.axis] > wall.high + far)) return {};
-  Vec3 away = x - wall.center;
-  away[wall.axis] = 0.0;
+std::optional<Crossing> crossing(const SlipFaces::Round& wall, const Vec3& x, double far) {
+  if (!wall.is_beside(x, far)) return {};
+  const Vec3 away = wall.away(x);
   const double r = away.norm();
   if (r <= wall.radius || r > wall.radius + far) return {};
   const Vec3 normal = away / r, foot = x - (r - wall.radius) * normal;

@@ -18,7 +18,19 @@ struct SlipFaces {
     bool symmetric;    ///< is `low` a symmetry plane, whose own images are not stored?
     Bounds window;     ///< of the container
   };
-  std::vector<Cylinder> round;  ///< their sides
+  /// The side of a cylinder, or a sphere.
+  struct Round {
+    Vec3 center;
+    double radius;                      ///< [m]
+    int axis = -1;                      ///< of a cylinder
+    double low = -1e300, high = 1e300;  ///< along it [m]
+
+    /// From the axis, or the middle, to x [m].
+    Vec3 away(const Vec3& x) const;
+    /// Is x at most `beyond` [m] past a cylinder's ends?
+    bool is_beside(const Vec3& x, double beyond) const;
+  };
+  std::vector<Round> round;
   std::vector<Pair> plane;
 
   bool empty() const { return round.empty() && plane.empty(); }
@@ -39,7 +51,7 @@ struct Reflection {
 };
 
 /// The image of a place in a round wall; none farther from it than `depth` [m].
-std::optional<Reflection> image_in(const Cylinder& wall, const Vec3& x, double depth, int dimension);
+std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, double depth, int dimension);
 /// Calls visit(Reflection) for all images between and behind the faces of a pair: a series on either side, each image of the last
 /// in the other face.
 template <class Visit>
@@ -88,7 +100,7 @@ inline bool is_beyond(const SlipFaces::Pair& faces, const Vec3& x) {
 }
 
 /// Of a place beyond the face by no more than `far` [m]; beyond that it is not this wall's.
-std::optional<Crossing> crossing(const Cylinder& wall, const Vec3& x, double far, int dimension);
+std::optional<Crossing> crossing(const SlipFaces::Round& wall, const Vec3& x, double far);
 std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension);
 
 }  // namespace undex::sph

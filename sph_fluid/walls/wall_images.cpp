@@ -111,7 +111,7 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                       .normal = wall.normal,
                       .wall_velocity = wall.velocity});
   }
-  for (const Cylinder& wall : faces.round)
+  for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
       if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent);
     });
@@ -145,13 +145,12 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
   const double far = 3.0 * settings.lattice.spacing;
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const auto turn_at = [&](const auto& face) {
-      const auto crossed = crossing(face, place_of(particles, i), far, settings.dimension);
+    const auto turn_back = [&](const std::optional<Crossing>& crossed) {
       if (crossed) turn(particles, i, *crossed, Vec3::Zero());
     };
-    for (const Cylinder& wall : faces.round) turn_at(wall);
+    for (const SlipFaces::Round& wall : faces.round) turn_back(crossing(wall, place_of(particles, i), far));
     for (const SlipFaces::Pair& pair : faces.plane)
-      if (is_beyond(pair, place_of(particles, i))) turn_at(pair);
+      if (is_beyond(pair, place_of(particles, i))) turn_back(crossing(pair, place_of(particles, i), far, settings.dimension));
   }
   return work;
 }

@@ -186,12 +186,13 @@ FluidPoint Fluid::Implementation::at(const Vec3& point) const {
   double weight = 0;
   around(point, WendlandC2::support * shrink, [&](std::uint32_t i, double r, const Group& group, int image) {
     const FluidRow& q = all.particles.predicted[i];
-    const double w = q.volume * value<WendlandC2>(r, shrink * q.h, settings.dimension);
+    const double size = settings.axisymmetric ? q.vz : q.volume;  // of a ring its area
+    const double w = size * value<WendlandC2>(r, shrink * q.h, settings.dimension);
     weight += w;
     values.pressure += w * q.p;
     values.density += w * q.rho;
     values.void_fraction += w * std::visit([&](const auto& law) { return law.void_fraction(q.rho); }, group.body->material.law);
-    const double v[3] = {q.vx, q.vy, q.vz};
+    const double v[3] = {q.vx, q.vy, settings.axisymmetric ? 0.0 : q.vz};
     for (int a = 0; a < 3; ++a) values.velocity[a] += w * (image >> a & 1 ? -v[a] : v[a]);
     ++values.neighbours;
   });

@@ -6,6 +6,7 @@ namespace undex::sph {
 
 void Signals::watch(const Settings& settings, ParticleSet& set) {
   share_ = settings.numerics.signal;
+  rings_ = settings.axisymmetric;
   everywhere_ = share_ <= 0.0 || !settings.gravity.isZero();
   for (const Body& body : settings.bodies) everywhere_ = everywhere_ || body.burn.has_value();
   if (everywhere_) return;
@@ -32,7 +33,7 @@ void Signals::find(const ParticleSet& set) {
 #pragma omp for schedule(static)
       for (std::uint32_t i = group.begin; i < group.end; ++i) {
         const FluidRow& q = set.particles.predicted[i];
-        const double v2 = q.vx * q.vx + q.vy * q.vy + q.vz * q.vz, still = share_ * q.c;
+        const double vz = rings_ ? 0.0 : q.vz, v2 = q.vx * q.vx + q.vy * q.vy + vz * vz, still = share_ * q.c;
         if (v2 > still * still || std::abs(q.rho - group.rest_density) > share_ * group.rest_density)
           mine.add(place_of(set.particles, i));
       }

@@ -42,7 +42,8 @@ class Signals {
  private:
   bool everywhere_ = true;
   double share_ = 0;
-  Extent disturbed_;  // the particles that are no longer in their first state of rest
+  bool rings_ = false;  // the rows' vz is an area
+  Extent disturbed_;    // the particles that are no longer in their first state of rest
 };
 
 }  // namespace undex::sph
