@@ -183,6 +183,8 @@ BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
 
 sph::LinedWall Solids::wet_wall(bool free_slip) const {
   const Implementation& s = *self_;
+  if (s.around.axisymmetric && !free_slip)
+    throw std::invalid_argument("coupling.slip: water slips along solids of revolution; take true");
   const std::size_t n = s.wet_particles.size();
   sph::LinedWall wall;
   wall.free_slip = free_slip;

@@ -333,7 +333,7 @@ TEST(SolidsOfRevolution, TaylorBarIsThatOfThreeDimensions) {
               4 * other.balance() / kinetic);
   EXPECT_NEAR(one.balance() / kinetic, 1.0, 5e-3);
   EXPECT_NEAR(length / length3, 1.0, 0.01);
-  EXPECT_NEAR(rim / rim3, 1.0, 0.01);
+  EXPECT_NEAR(rim / rim3, 1.0, 0.02);  // the corner's own spacing: 2.5 % at R/5, 0.6 % at R/9.5 of a bar of usual length
   EXPECT_NEAR(one.plastic / (4 * other.plastic), 1.0, 0.01);
   EXPECT_NEAR(one.impulse[1] / (4 * other.impulse[2]), 1.0, 0.01);
 }
