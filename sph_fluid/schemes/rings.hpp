@@ -7,7 +7,9 @@
 // with w = W over its lattice sum, and the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum along
 // the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it
 // with half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
-// would be turned round on its way back to the particle that it shows: i feels its own whole.
+// would be turned round on its way back to the particle that it shows: i feels its own whole. So it is with the dummy particles
+// of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of that n_r
+// times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
 #pragma once
 
 #include "sph_fluid/schemes/reconstruction.hpp"
@@ -27,6 +29,21 @@ struct StateOfRing : Base, RingState<V> {
   }
 };
 
+/// A dummy particle of a smooth wall. Where it would have a third velocity its row has a, for its slip its area.
+template <class V>
+struct WallOfRing : WallState<V> {
+  V a, area;
+
+  template <class Read>
+  UNDEX_INLINE void read(Read entry) {
+    WallState<V>::read(entry);
+    a = this->vz;
+    area = this->slip;
+    this->vz = V{};
+    this->slip = broadcast(Element<V>(1));
+  }
+};
+
 /// Gradients are those of the meridian: areas for volumes.
 template <class T, template <class> class Gradients>
 struct GradientsOfRings : Gradients<T> {
@@ -40,6 +57,13 @@ struct GradientsOfRings : Gradients<T> {
       this->vz = V{};
     }
   };
+  struct Wall : WallOfRing<V> {
+    template <class Read>
+    UNDEX_INLINE void read(Read entry) {
+      WallOfRing<V>::read(entry);
+      this->volume = this->area;
+    }
+  };
 };
 
 template <class T, template <class> class Scheme>
@@ -47,6 +71,7 @@ struct RatesOfRings : Scheme<T> {
   using V = Vec<T>;
   using Plane = Scheme<T>;
   using State = StateOfRing<typename Plane::State, V>;
+  using Wall = WallOfRing<V>;
   using Sums = typename Plane::Sums;
   using Plane::Plane;
   static constexpr bool rings = true;
@@ -73,6 +98,15 @@ struct RatesOfRings : Scheme<T> {
     sj.compression += Cj;
     si.heat += Di * p_star - Ci * i.p;
     sj.heat += Dj * p_star - Cj * j.p;
+  }
+
+  UNDEX_INLINE void wall(const State& i, const Wall& w, Pair<V> pair, Sums& si, WallSums<V>& sw) const {
+    pair.F *= T(0.5) * (i.a + w.a);
+    const V p_star = Plane::wall(i, w, pair, si, sw);
+    const V hoop = w.volume * pair.W * i.slope * w.nx * w.nx, D = hoop * i.vx;
+    si.fx -= hoop * p_star;
+    si.compression += D;
+    si.heat += D * (p_star - i.p);
   }
 };
 
