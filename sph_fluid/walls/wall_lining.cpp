@@ -49,7 +49,7 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
     if (rows_[k].slip != 1.0)
       throw std::invalid_argument("walls of dummy particles are smooth in an axisymmetric scene: take free_slip for every face");
     const double r = std::max(x[0], 1e-6 * settings.lattice.spacing), area = rows_[k].volume / (2.0 * std::numbers::pi * r);
-    rows_[k].vz = rings->at(r, smoothing_length(settings, settings.lattice.spacing), area).a;
+    rows_[k].vz = rings->at(r, smoothing_length(settings, settings.lattice.spacing)).a;
     rows_[k].slip = area;
   }
   if (moving.empty()) rigid_ = {};
