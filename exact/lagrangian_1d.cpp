@@ -10,12 +10,16 @@
 #include <variant>
 
 #include "core/errors.hpp"
+#include "materials/stress_update.hpp"
 
 namespace undex::exact {
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument("Lagrangian1D: " + message); }
+
+using materials::FluidLaw;
+using materials::Solid;
 
 template <class... Parts>
 std::string text(const Parts&... parts) {
@@ -37,13 +41,35 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
     if (!(layer.outer > layer.inner))
       refuse(text("layer ", k, " must have a positive thickness, got ", layer.inner, " to ", layer.outer, " m"));
     if (layer.cells < 1) refuse(text("layer ", k, " needs at least one cell, got ", layer.cells));
+    if (!layer.places.empty() && static_cast<int>(layer.places.size()) != layer.cells - 1)
+      refuse(text("layer ", k, " of ", layer.cells, " cells has ", layer.places.size(), " places between them"));
     if (!(layer.ratio > 0)) refuse(text("ratio of layer ", k, " must be positive, got ", layer.ratio));
     if (!layer.start && !(layer.density > 0)) refuse(text("density of layer ", k, " must be positive, got ", layer.density));
     if (k > 0 && std::abs(layer.inner - layers[k - 1].outer) > 1e-12 * std::abs(layer.inner))
       refuse(text("layer ", k, " begins at ", layer.inner, " m, but the one before it ends at ", layers[k - 1].outer, " m"));
-    if (layer.burn && !std::holds_alternative<materials::Jwl>(layer.law))
+    if (std::holds_alternative<Solid>(layer.law) && dimension == 2)
+      refuse(text("layer ", k, " is a solid, which cylindrical symmetry does not have"));
+    const auto* fluid = std::get_if<FluidLaw>(&layer.law);
+    if (layer.burn && !(fluid && std::holds_alternative<materials::Jwl>(*fluid)))
       refuse(text("layer ", k, " burns, so its law must be that of detonation products (Jwl)"));
   }
+}
+
+const materials::TaitWater* tait_of(const Layer& layer) {
+  const auto* fluid = std::get_if<FluidLaw>(&layer.law);
+  return fluid ? std::get_if<materials::TaitWater>(fluid) : nullptr;
+}
+
+/// Specific energy [J/kg] of a layer's start.
+double start_energy(const Layer& layer, const StartPoint& state) {
+  const auto* fluid = std::get_if<FluidLaw>(&layer.law);
+  if (!fluid) return state.energy;
+  return std::visit(
+      [&](const auto& law) {
+        if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy) return state.energy;
+        else return law.barotropic_energy(state.density);
+      },
+      *fluid);
 }
 
 StartPoint start_of(const Layer& layer, double radius) {
@@ -77,12 +103,13 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   for (std::size_t k = 0; k < layers_.size(); ++k) {
     const Layer& layer = layers_[k];
     Block block{cells(), 0, 0.0};
-    if (const auto* tait = std::get_if<materials::TaitWater>(&layer.law))
+    if (const auto* tait = tait_of(layer))
       if (tait->parameters().cavitation == materials::Cavitation::schmidt)
         block.stiffest_sound = tait->parameters().mixture.liquid_sound;
     double width = first_width(layer.outer - layer.inner, layer.cells, layer.ratio);
     for (int i = 0; i < layer.cells; ++i, width *= layer.ratio) {
-      const double from = r_.back(), to = i + 1 < layer.cells ? from + width : layer.outer;
+      const double from = r_.back();
+      const double to = i + 1 == layer.cells ? layer.outer : layer.places.empty() ? from + width : layer.places[i];
       const StartPoint state = start_of(layer, 0.5 * (from + to));
       if (!(state.density > 0))
         refuse(text("layer ", k, " starts with the density ", state.density, " kg/m^3 between ", from, " and ", to, " m"));
@@ -92,12 +119,7 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
       cell_mass_.push_back(state.density * start_volume_.back());
       cell_layer_.push_back(static_cast<int>(k));
       start_middle_.push_back(0.5 * (from + to));
-      e_.push_back(std::visit(
-          [&](const auto& law) {
-            if constexpr (std::remove_cvref_t<decltype(law)>::uses_energy) return state.energy;
-            else return law.barotropic_energy(state.density);
-          },
-          layer.law));
+      e_.push_back(start_energy(layer, state));
     }
     block.end = cells();
     blocks_.push_back(block);
@@ -125,6 +147,14 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   rho_ = start_density_;
   for (auto* field : {&p_, &q_, &c_, &viscous_sound_, &slope_}) field->assign(n, 0.0);
   area_.assign(n + 1, 0.0);
+  if (std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return std::holds_alternative<Solid>(l.law); })) {
+    solids_.for_each([&](const char*, std::vector<double>& values) { values.assign(n, 0.0); });
+    for (int i = 0; i < n; ++i)
+      if (const auto* solid = std::get_if<Solid>(&layers_[cell_layer_[i]].law)) solids_.temperature[i] = solid->T_room;
+    solids_new_ = solids_;
+    push_in_.assign(n, 0.0);
+    push_out_.assign(n, 0.0);
+  }
   pressures(n, 0.0, r_, u_, rho_, e_, p_, q_);
   inner_start_pressure_ = p_[0];
   outer_start_pressure_ = p_[n - 1];
@@ -163,8 +193,13 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
   for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
     const Block& block = blocks_[k];
     const int stop = std::min(block.end, end);
+    if (const auto* solid = std::get_if<Solid>(&layers_[k].law)) {
+      solid_pressures(*solid, block.begin, stop, rho, e, p);
+      continue;
+    }
+    const FluidLaw& fluid = std::get<FluidLaw>(layers_[k].law);
     if (const auto& burn = layers_[k].burn) {
-      const auto& products = std::get<materials::Jwl>(layers_[k].law);
+      const auto& products = std::get<materials::Jwl>(fluid);
       for (int i = block.begin; i < stop; ++i) {
         // The part that burns by compression is not kept when the zone expands: kept, every oscillation of
         // the unburned charge, however small, would burn some more of it, until it detonates of itself.
@@ -185,7 +220,7 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
             viscous_sound_[i] = law.void_fraction(rho[i], e[i]) > 0.0 ? 0.0 : c_[i];
           }
         },
-        layers_[k].law);
+        fluid);
   }
 
   const int n = cells();
@@ -204,6 +239,86 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
     }
     q[i] =
         (1.0 - psi) * rho[i] * closing * (options_.linear_viscosity * viscous_sound_[i] + options_.quadratic_viscosity * closing);
+  }
+}
+
+void Lagrangian1D::solid_pressures(const Solid& solid, int begin, int end, const std::vector<double>& rho,
+                                   const std::vector<double>& e, std::vector<double>& p) {
+  for (int i = begin; i < end; ++i) {
+    const auto state = materials::evaluate(solid.pressure, solid.rho0, rho[i], e[i]);
+    double& damage = solids_new_.damage[i];
+    if (materials::spalls(solid, state.pressure)) damage = materials::failed;
+    p[i] = materials::carried_pressure(solid, state.pressure, damage);
+    c_[i] = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * solid.shear_modulus / rho[i]);
+    viscous_sound_[i] = damage >= materials::failed && p[i] <= 0.0 ? 0.0 : c_[i];  // as a void that closes
+  }
+}
+
+void Lagrangian1D::deviator_forces(int end, double share, const std::vector<double>& r) {
+  for (int i = 0; i < end; ++i) {
+    const double s = (1.0 - share) * solids_.deviator[i] + share * solids_new_.deviator[i];
+    const double from = 0.5 * (r_[i] + r[i]), to = 0.5 * (r_[i + 1] + r[i + 1]);
+    const double work = (volume_to(to) - volume_to(from)) * s, radial = work / (to - from);
+    const double across = dimension_ == 1 ? 0.0 : work / (from + to);
+    push_in_[i] = across + radial;
+    push_out_[i] = across - radial;
+  }
+}
+
+void Lagrangian1D::advance_deviators(int end, double dt) {
+  constexpr int N = materials::points_at_once;
+  for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
+    const auto* solid = std::get_if<Solid>(&layers_[k].law);
+    if (!solid) continue;
+    const int stop = std::min(blocks_[k].end, end);
+    for (int begin = blocks_[k].begin; begin < stop; begin += N) {
+      materials::SolidPoints points{};
+      materials::SolidStep done;
+      materials::EightPoints gradient[3][3] = {}, specific_volume, pressure;
+      for (int l = 0; l < N; ++l) {
+        const int i = std::min(begin + l, stop - 1);  // idle lanes repeat the last cell
+        const double from = 0.5 * (r_[i] + r_new_[i]), to = 0.5 * (r_[i + 1] + r_new_[i + 1]);
+        const double moved_in = r_new_[i] - r_[i], moved_out = r_new_[i + 1] - r_[i + 1];
+        gradient[0][0][l] = (moved_out - moved_in) / (to - from);
+        if (dimension_ == 3) gradient[1][1][l] = gradient[2][2][l] = (moved_out + moved_in) / (to + from);
+        points.deviator[0][l] = solids_.deviator[i];
+        points.deviator[1][l] = points.deviator[2][l] = -0.5 * solids_.deviator[i];
+        points.plastic_strain[l] = solids_.plastic_strain[i];
+        points.temperature[l] = solids_.temperature[i];
+        points.damage[l] = solids_.damage[i];
+        specific_volume[l] = 1.0 / rho_new_[i];
+        pressure[l] = p_[i];
+      }
+      materials::advance_deviator(*solid, gradient, specific_volume, pressure, dt, points, done);
+      for (int l = 0; l < N && begin + l < stop; ++l) {
+        const int i = begin + l;
+        solids_new_.deviator[i] = points.deviator[0][l];
+        solids_new_.plastic_strain[i] = points.plastic_strain[l];
+        solids_new_.temperature[i] = points.temperature[l];
+        solids_new_.damage[i] = points.damage[l];
+        solids_new_.plastic_energy[i] =
+            solids_.plastic_energy[i] + 0.5 * cell_mass_[i] * (1.0 / rho_[i] + 1.0 / rho_new_[i]) * done.plastic_work[l];
+      }
+    }
+  }
+}
+
+void Lagrangian1D::warm(int end) {
+  for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
+    const auto* solid = std::get_if<Solid>(&layers_[k].law);
+    if (!solid) continue;
+    for (int i = blocks_[k].begin; i < std::min(blocks_[k].end, end); ++i) {
+      const double opened = 1.0 / rho_new_[i] - 1.0 / rho_[i];
+      const bool broken = solids_new_.damage[i] >= materials::failed;
+      const materials::Warming warming =
+          materials::warming(*solid, {.before = 1.0 / rho_[i],
+                                      .after = 1.0 / rho_new_[i],
+                                      .energy = e_[i],
+                                      .pressure_work = -0.5 * (p_[i] + p_new_[i]) * opened,
+                                      .dissipated = -0.5 * (q_[i] + q_new_[i]) * opened,
+                                      .parted = materials::is_parted(*solid, std::min(p_[i], p_new_[i]), broken)});
+      solids_new_.temperature[i] = warming(solids_new_.temperature[i]);
+    }
   }
 }
 
@@ -243,6 +358,7 @@ void Lagrangian1D::step(double dt) {
   const int cell_end = std::min(active_ + 2, n);
   const int node_end = cell_end + 1;
   const bool held_inner = inner_ == Boundary::rigid, held_outer = outer_ == Boundary::rigid;
+  const bool solid = !solids_.deviator.empty();
 
   // Total pressures at the two ends outside of the mesh, at the start of the step.
   double below = held_inner ? 0.0 : outside_pressure(false, u_[0], rho_[0], c_[0]);
@@ -252,6 +368,9 @@ void Lagrangian1D::step(double dt) {
       const double inside = i > 0 ? total(i - 1) : below, outside = i < n ? total(i) : above;
       u_new_[i] = u_[i] + dt / node_mass_[i] * area_[i] * (inside - outside);
     }
+    if (solid)
+      for (int i = 0; i < node_end; ++i)
+        u_new_[i] += dt / node_mass_[i] * ((i > 0 ? push_out_[i - 1] : 0.0) + (i < n ? push_in_[i] : 0.0));
     if (held_inner) u_new_[0] = 0.0;
     if (held_outer && node_end > n) u_new_[n] = 0.0;
     for (int i = 0; i < node_end; ++i) r_new_[i] = r_[i] + 0.5 * dt * (u_[i] + u_new_[i]);
@@ -266,10 +385,14 @@ void Lagrangian1D::step(double dt) {
       const double volume = volume_to(r_new_[i + 1]) - volume_to(r_new_[i]);
       rho_new_[i] = start_density_[i] * (start_volume_[i] / volume);
     }
+    if (solid)
+      for (int i = 0; i < cell_end; ++i)
+        e_new_[i] -= 0.5 * dt / cell_mass_[i] * (push_in_[i] * (u_[i] + u_new_[i]) + push_out_[i] * (u_[i + 1] + u_new_[i + 1]));
   };
 
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_[i]);
   const auto total_old = [&](int i) { return p_[i] + q_[i]; };
+  if (solid) deviator_forces(cell_end, 0.0, r_);
   accelerate(total_old);
   compress(total_old);
   const auto healthy = [&] {
@@ -280,19 +403,26 @@ void Lagrangian1D::step(double dt) {
                                  e_new_[i], " J/kg; dt = ", dt, " s"));
   };
   healthy();
+  if (solid) advance_deviators(cell_end, dt);
   pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
   if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0]));
   if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1]));
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_new_[i]);
   const auto total_mean = [&](int i) { return 0.5 * (p_[i] + q_[i] + p_new_[i] + q_new_[i]); };
+  if (solid) deviator_forces(cell_end, 0.5, r_new_);
   accelerate(total_mean);
   compress(total_mean);
   healthy();
   if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
   if (!held_outer && node_end > n) boundary_work_ += above * area_[n] * (0.5 * dt * (u_[n] + u_new_[n]));
+  if (solid) {
+    advance_deviators(cell_end, dt);
+    warm(cell_end);
+  }
   pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
+  std::swap(solids_, solids_new_);
   std::swap(r_, r_new_);
   std::swap(u_, u_new_);
   std::swap(rho_, rho_new_);
@@ -311,6 +441,7 @@ void Lagrangian1D::fill_new() {
   e_new_ = e_;
   p_new_ = p_;
   q_new_ = q_;
+  solids_new_ = solids_;
 }
 
 void Lagrangian1D::update_active() {
@@ -336,23 +467,73 @@ void Lagrangian1D::update_active() {
 }
 
 void Lagrangian1D::advance(double t_end) {
-  while (time_ < t_end) {
-    double dt = stable_step();
-    const double left = t_end - time_;
-    // Two even steps rather than a full and a minute one.
-    const bool last = left <= dt * (1.0 + 1e-10);
-    if (last) {
-      dt = left;
-    } else {
-      if (left < 2.0 * dt) dt = 0.5 * left;
-      last_step_ = dt;
-    }
-    if (!(dt > 0.0) || (!last && time_ + dt == time_))
-      throw NumericalStop(
-          text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: the stable step has fallen to ", dt, " s"));
-    step(dt);
-    if (last) time_ = t_end;
+  while (time_ < t_end) step_towards(t_end);
+}
+
+double Lagrangian1D::step_towards(double t_end) {
+  double dt = stable_step();
+  const double left = t_end - time_;
+  // Two even steps rather than a full and a minute one.
+  const bool last = left <= dt * (1.0 + 1e-10);
+  if (last) {
+    dt = left;
+  } else {
+    if (left < 2.0 * dt) dt = 0.5 * left;
+    last_step_ = dt;
   }
+  if (!(dt > 0.0) || (!last && time_ + dt == time_))
+    throw NumericalStop(
+        text("one-dimensional solver, step ", steps_, ", t = ", time_, " s: the stable step has fallen to ", dt, " s"));
+  step(dt);
+  if (last) time_ = t_end;
+  return dt;
+}
+
+void Lagrangian1D::visit_state(StateVisitor& state) {
+  state("time", time_);
+  state("last step", last_step_);
+  state("boundary work", boundary_work_);
+  state("steps", steps_);
+  state("active", active_);
+  state("layer", cell_layer_);
+  std::vector<char> burns;
+  for (const Layer& layer : layers_) burns.push_back(layer.burn.has_value());
+  state("burns", burns);
+  for (std::size_t k = 0; k < layers_.size(); ++k)
+    if (!burns[k]) layers_[k].burn.reset();
+  for (auto& [name, field] : {std::pair{"radius", &r_},
+                              {"velocity", &u_},
+                              {"energy", &e_},
+                              {"mass", &cell_mass_},
+                              {"node mass", &node_mass_},
+                              {"start volume", &start_volume_},
+                              {"start density", &start_density_},
+                              {"start middle", &start_middle_},
+                              {"density", &rho_},
+                              {"pressure", &p_},
+                              {"viscous pressure", &q_},
+                              {"sound speed", &c_},
+                              {"viscous sound speed", &viscous_sound_},
+                              {"velocity gradient", &slope_}})
+    state(name, *field);
+  if (!solids_.deviator.empty()) solids_.for_each([&](const char* name, std::vector<double>& values) { state(name, values); });
+  if (!state.restores()) return;
+  const auto first_of = [&](int layer) {
+    return static_cast<int>(std::lower_bound(cell_layer_.begin(), cell_layer_.end(), layer) - cell_layer_.begin());
+  };
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    blocks_[k].begin = first_of(static_cast<int>(k));
+    blocks_[k].end = first_of(static_cast<int>(k) + 1);
+  }
+  area_.assign(r_.size(), 0.0);
+  push_in_.resize(solids_.deviator.size());
+  push_out_.resize(solids_.deviator.size());
+  fill_new();
+}
+
+void Lagrangian1D::end_burns() {
+  for (int k = 0; k < layers(); ++k)
+    if (layers_[k].burn && !still_burns(k)) layers_[k].burn.reset();
 }
 
 bool Lagrangian1D::still_burns(int layer) const {
@@ -372,13 +553,26 @@ double Lagrangian1D::add_to_node(int node, double mass, double velocity) {
   return lost;
 }
 
-void Lagrangian1D::coarsen(double width) {
+void Lagrangian1D::merge_solids(int one, int other, int into) {
+  const double a = cell_mass_[one], b = cell_mass_[other];
+  const auto mean = [&](std::vector<double>& values) {
+    values[into] = one == other ? values[one] : (a * values[one] + b * values[other]) / (a + b);
+  };
+  mean(solids_.deviator);
+  mean(solids_.plastic_strain);
+  mean(solids_.temperature);
+  solids_.damage[into] = std::max(solids_.damage[one], solids_.damage[other]);
+  solids_.plastic_energy[into] = solids_.plastic_energy[one] + (one == other ? 0.0 : solids_.plastic_energy[other]);
+}
+
+void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int least) {
   const int n = cells();
   std::vector<int> first;  // old cell with which a new one begins
+  const auto may_merge = [&](int layer) { return blocks_[layer].end - blocks_[layer].begin >= 2 * least && !still_burns(layer); };
   for (int i = 0; i < n;) {
     first.push_back(i);
-    const bool pair =
-        i + 3 < active_ && cell_layer_[i] == cell_layer_[i + 1] && r_[i + 2] - r_[i] <= width && !still_burns(cell_layer_[i]);
+    const bool pair = i + 3 < active_ && cell_layer_[i] == cell_layer_[i + 1] && r_[i + 2] - r_[i] <= width(r_[i + 1]) &&
+                      may_merge(cell_layer_[i]);
     i += pair ? 2 : 1;
   }
   const int left = static_cast<int>(first.size());
@@ -387,6 +581,7 @@ void Lagrangian1D::coarsen(double width) {
   for (int k = 0; k < left; ++k) {
     const int i = first[k];
     double mass = cell_mass_[i], energy = mass * e_[i], volume = start_volume_[i];
+    if (!solids_.deviator.empty()) merge_solids(i, first[k + 1] - 1, k);
     if (first[k + 1] == i + 2) {
       const double other = cell_mass_[i + 1];
       energy += other * e_[i + 1] + add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
@@ -414,6 +609,12 @@ void Lagrangian1D::coarsen(double width) {
   for (auto* field :
        {&cell_mass_, &start_volume_, &start_density_, &start_middle_, &e_, &rho_, &p_, &q_, &c_, &viscous_sound_, &slope_})
     field->resize(left);
+  if (!solids_.deviator.empty()) {
+    solids_.for_each([&](const char*, std::vector<double>& values) { values.resize(left); });
+    push_in_.resize(left);
+    push_out_.resize(left);
+    solids_new_ = solids_;
+  }
   cell_layer_.resize(left);
   for (auto* field : {&r_, &u_, &node_mass_, &area_}) field->resize(left + 1);
   for (int k = 0; k < left; ++k) rho_[k] = start_density_[k] * (start_volume_[k] / (volume_to(r_[k + 1]) - volume_to(r_[k])));
@@ -437,14 +638,17 @@ double Lagrangian1D::internal_energy() const {
 
 double Lagrangian1D::barotropic_heat() const {
   double sum = 0.0;
-  for (std::size_t k = 0; k < blocks_.size(); ++k)
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const auto* fluid = std::get_if<FluidLaw>(&layers_[k].law);
+    if (!fluid) continue;
     std::visit(
         [&](const auto& law) {
           if constexpr (!std::remove_cvref_t<decltype(law)>::uses_energy)
-            for (int i = blocks_[k].begin; i < blocks_[k].end; ++i)
+            for (int i = blocks_[k].begin; i < std::min(blocks_[k].end, active_ + 2); ++i)  // none beyond
               sum += cell_mass_[i] * (e_[i] - law.barotropic_energy(rho_[i]));
         },
-        layers_[k].law);
+        *fluid);
+  }
   return sum;
 }
 
@@ -491,6 +695,12 @@ IntervalIntegral Lagrangian1D::integral(double from, double to, int layer) const
     }
   }
   return sum;
+}
+
+double Lagrangian1D::front(double share, double limit) const {
+  int i = static_cast<int>(std::lower_bound(r_.begin(), r_.begin() + std::min(active_, cells()), limit) - r_.begin()) - 1;
+  while (i >= 0 && std::abs(rho_[i] / start_density_[i] - 1.0) <= share) --i;
+  return r_[i + 1];
 }
 
 double Lagrangian1D::shock_front(double threshold) const {

@@ -1,5 +1,5 @@
-// One-dimensional Lagrangian hydrodynamics in planar, cylindrical or spherical symmetry: converged solutions
-// for tests and comparisons, and the state from which a run with a spherical start begins. SI units.
+// One-dimensional Lagrangian hydrodynamics in planar, cylindrical or spherical symmetry: runs of scenes that need one coordinate,
+// converged solutions for tests and comparisons, and the state from which a run with a spherical start begins. SI units.
 //
 // Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells
 // of fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbour's),
@@ -11,16 +11,24 @@
 // Shocks: artificial pressure q = (1 - psi) rho |du| (a1 c + a2 |du|) in cells that shrink (von Neumann and
 // Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring velocity
 // gradients, takes it out of smooth compression (R. B. Christensen's form).
+//
+// Solids, in planar and spherical symmetry: the deviator of the stress is s along the radius and -s/2 across it, by the update that
+// all discretisations share (materials/stress_update.hpp). With V a cell's volume and r1, r2, u1, u2 its nodes, it works at the rate
+//   V s ((u2 - u1)/(r2 - r1) - (u1 + u2)/(r1 + r2))     (planar: the first term alone),
+// whose derivatives with respect to u1 and u2 are the forces on the two nodes: energy is conserved as above.
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "core/state.hpp"
 #include "materials/burn.hpp"
 #include "materials/equation_of_state.hpp"
+#include "materials/solid.hpp"
 
 namespace undex::exact {
 
@@ -29,9 +37,9 @@ struct StartPoint {
   double density, velocity, energy;  ///< [kg/m^3], outward [m/s], specific [J/kg]
 };
 
-/// A layer of one fluid, uniform at the start unless `start` says otherwise.
+/// A layer of one fluid or solid, uniform at the start unless `start` says otherwise. Solids begin without a deviator.
 struct Layer {
-  materials::FluidLaw law;
+  std::variant<materials::FluidLaw, materials::Solid> law;
   double inner = 0.0, outer = 0.0;  ///< radii (planar: positions) of its ends [m]
   int cells = 0;                    ///< at least one
   double ratio = 1.0;               ///< width of a cell over that of its inner neighbour
@@ -46,6 +54,8 @@ struct Layer {
   /// A start that is not uniform, in place of density, energy and velocity above: asked for at the cells' middles (the
   /// velocity: at the nodes).
   std::function<StartPoint(double radius)> start = {};
+  /// Ends of its cells but the first and the last, from the inside out [m]: as many as `cells` needs; empty: as `ratio` says.
+  std::vector<double> places = {};
 };
 
 /// Ratio of neighbouring widths with which `cells` cells fill `length` [m], the first being `first` [m] wide.
@@ -96,6 +106,24 @@ struct IntervalIntegral {
   double energy_with_lost_motion() const { return (internal_energy + kinetic_energy) / mass - 0.5 * velocity() * velocity(); }
 };
 
+/// State of cells of solids; of others zero.
+struct SolidCells {
+  std::vector<double> deviator;        ///< s of the stress along the radius, tension positive [Pa]
+  std::vector<double> plastic_strain;  ///< [-]
+  std::vector<double> temperature;     ///< [K]
+  std::vector<double> damage;          ///< [-], failed at 1
+  std::vector<double> plastic_energy;  ///< plastic work so far [J]
+
+  /// Each array with its name.
+  void for_each(auto&& visit) {
+    visit("deviator", deviator);
+    visit("plastic strain", plastic_strain);
+    visit("temperature", temperature);
+    visit("damage", damage);
+    visit("plastic energy", plastic_energy);
+  }
+};
+
 class Lagrangian1D {
  public:
   /// dimension: 1 planar, 2 cylindrical, 3 spherical. The layers touch one another, from the inside out. A
@@ -107,12 +135,24 @@ class Lagrangian1D {
   /// Steps until exactly t_end [s]; does nothing when t_end has passed. Throws NumericalStop
   /// (core/errors.hpp) naming cell and time when a cell turns inside out or a state is not finite.
   void advance(double t_end);
+  /// One stable step, not beyond t_end [s]; returns its size [s]. Throws as `advance`.
+  double step_towards(double t_end);
+
+  /// What the next step goes on from.
+  void visit_state(StateVisitor& state);
+
+  /// Charges that have burned are products from now on: the sound speed of what burns, which is at least D/2, limits the step.
+  void end_burns();
 
   /// Merges neighbouring cells of a layer where the two together are no wider than `width` [m]: an outgoing wave grows longer and
   /// asks for less. Mass, momentum (but at a rigid end) and the sum of kinetic and internal energy stay what they are; what the
   /// node between two cells had of motion beyond its neighbours becomes their heat. Cells that nothing has reached, and layers
-  /// that still burn, are left alone.
-  void coarsen(double width);
+  /// that still burn, are left alone, and no layer keeps fewer than `least` cells.
+  void coarsen(double width, int least = 1) {
+    coarsen([width](double) { return width; }, least);
+  }
+  /// The same with a width for each place [m].
+  void coarsen(const std::function<double(double place)>& width, int least = 1);
 
   double time() const { return time_; }
   long steps() const { return steps_; }
@@ -129,8 +169,12 @@ class Lagrangian1D {
   std::span<const double> cell_sound() const { return c_; }     ///< [cells], [m/s]
   /// [cells], [kg]; per area [m^2] in planar, per length [m] in cylindrical symmetry, as all sums below.
   std::span<const double> cell_mass() const { return cell_mass_; }
-  std::span<const int> cell_layer() const { return cell_layer_; }  ///< [cells]
-  double interface_radius(int layer) const;                        ///< outer end of that layer, now [m]
+  std::span<const int> cell_layer() const { return cell_layer_; }   ///< [cells]
+  std::span<const double> node_mass() const { return node_mass_; }  ///< [cells + 1], plates included [kg]
+  const Layer& layer(int k) const { return layers_.at(k); }
+  int first_cell(int layer) const { return blocks_.at(layer).begin; }
+  const SolidCells& solids() const { return solids_; }  ///< [cells]; empty where there is no solid
+  double interface_radius(int layer) const;             ///< outer end of that layer, now [m]
 
   double kinetic_energy() const;   ///< [J]
   double internal_energy() const;  ///< [J]
@@ -155,6 +199,10 @@ class Lagrangian1D {
   /// `threshold` [Pa], linear between the middles of cells; the radius of the inner end where there is none.
   double shock_front(double threshold) const;
 
+  /// Outermost radius [m] up to `limit` [m] at which the density is other than at the start by more than that share; that of the
+  /// inner end where there is none.
+  double front(double share, double limit) const;
+
  private:
   struct Block {
     int begin, end;         // cells
@@ -167,11 +215,22 @@ class Lagrangian1D {
   /// Pressure and artificial pressure of the cells below `end`.
   void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u, const std::vector<double>& rho,
                  const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);
+  /// The same of solids; damage of what spalls is set.
+  void solid_pressures(const materials::Solid& solid, int begin, int end, const std::vector<double>& rho,
+                       const std::vector<double>& e, std::vector<double>& p);
+  /// What the deviators of solids give to the nodes of each cell below `end`, with that share of the new ones, at mean places.
+  void deviator_forces(int end, double share, const std::vector<double>& r);
+  /// Deviators and what goes with them at the end of a step whose new places and velocities are there.
+  void advance_deviators(int end, double dt);
+  /// Temperature of solids by compression and shocks, before the step's last pressures.
+  void warm(int end);
   double stable_step() const;
   void step(double dt);
   void update_active();
   void fill_new();  // all cells of the coming state are those of the present one until a step has reached them
   bool still_burns(int layer) const;
+  /// Puts what solids have in one cell, or in that and its neighbour, into the cell `into` at or before them.
+  void merge_solids(int one, int other, int into);
   /// Adds a mass [kg] of that velocity to a node; returns the kinetic energy [J] that is lost.
   double add_to_node(int node, double mass, double velocity);
 
@@ -186,6 +245,7 @@ class Lagrangian1D {
   double time_ = 0.0, last_step_ = 0.0, boundary_work_ = 0.0;
   long steps_ = 0;
   std::vector<double> r_, u_, e_;
+  SolidCells solids_;
   // Fixed at the start.
   std::vector<double> cell_mass_, node_mass_, start_volume_, start_density_, start_middle_;
   std::vector<int> cell_layer_;
@@ -196,6 +256,8 @@ class Lagrangian1D {
   int active_ = 0;  // nodes beyond it are at rest and in balance
   // Scratch of a step.
   std::vector<double> r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_, area_, slope_;
+  SolidCells solids_new_;
+  std::vector<double> push_in_, push_out_;  // of the deviator, on a cell's inner and outer node [N]
 };
 
 }  // namespace undex::exact

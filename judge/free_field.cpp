@@ -58,7 +58,11 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Series run = evidence.series(places[k].name, "pressure");
     if (run.empty()) continue;
-    const NamedNumbers one = blast_metrics(run, exact[k], places[k].name, run.t.front(), evidence.time);
+    NamedNumbers one = blast_metrics(run, exact[k], places[k].name, run.t.front(), evidence.time);
+    if (on_a_line(scene.geometry)) {  // the run's front is smeared as the reference's is, over cells of its own
+      const double wider = scene.fluid.lattice.spacing * reference_cells / run::spherical_charge(scene).radius;
+      one.front().second = peak_behind_front({.pressure = run, .smear = wider * exact[k].smear});
+    }
     verdict.metrics.insert(verdict.metrics.end(), one.begin(), one.end());
     for (const char* what : {"peak_", "arrival_"})
       verdict.missing.emplace_back(what + places[k].name + (*what == 'p' ? "_pa" : "_s"),

@@ -30,7 +30,7 @@ struct RunRecord {
   int threads = 1;
   std::int64_t particles = 0;  ///< moving ones, of fluid and solids
   std::int64_t wall_particles = 0;
-  std::int64_t cells = 0;                                       ///< of the structure's mesh
+  std::int64_t cells = 0;                                       ///< of the structure's mesh, or of the one-dimensional one
   std::int64_t particle_updates = 0;                            ///< moving particles times steps of their solver
   std::int64_t neighbour_interactions = 0;                      ///< true neighbours, directed, over all steps
   std::int64_t peak_memory_bytes = 0;                           ///< of the process, program and libraries included

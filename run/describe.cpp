@@ -48,6 +48,24 @@ std::string bodies(const scene::Scene& scene, const sph::Fluid& fluid) {
   return text + format("  %-16s %10zu particles\n", "walls", fluid.wall_particle_count());
 }
 
+std::string layers(const scene::Scene& scene, const LineFlow& flow) {
+  std::string text;
+  const std::vector<std::size_t> count = flow.cells_by_layer();
+  for (std::size_t k = 0; k < count.size(); ++k) {
+    const scene::LineLayer& layer = flow.line().layers[k];
+    const std::string& name = layer.is_solid ? scene.solids.bodies[layer.index].name : scene.fluid.bodies[layer.index].name;
+    const std::string& material =
+        layer.is_solid ? scene.solids.bodies[layer.index].material.name : scene.fluid.bodies[layer.index].material.name;
+    text += format("  %-16s %10zu cells      %.6g to %.6g m of %s\n", name.c_str(), count[k], layer.inner, layer.outer,
+                   material.c_str());
+  }
+  const auto end = [&](int which) {
+    return flow.line().closed[which] ? (which == 0 && flow.line().inner() == 0 ? "the middle or a plane of symmetry" : "rigid")
+                                     : "free, nothing beyond it";
+  };
+  return text + format("  inner end: %s; outer end: %s\n", end(0), end(1));
+}
+
 /// What the temperature of solids does not know.
 std::string temperature_notes(const scene::Scene& scene) {
   std::string text;
@@ -82,7 +100,8 @@ std::string describe(const scene::Scene& given) {
   std::string planes;
   for (int a = 0; a < 3; ++a)
     if (scene.fluid.symmetry.axis[a]) planes += std::string(planes.empty() ? "" : ", ") + "xyz"[a];
-  const std::string space = scene.meridian
+  const std::string space = on_a_line(scene.geometry) ? word_of(scene.geometry)
+                            : scene.meridian
                                 ? format("axisymmetric about an axis along %c", "xyz"[scene.axis])
                                 : format("%d dimension%s", scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s");
   std::string text = format("%s: %s\n%s, symmetry planes: %s, to %.6g us\n", scene.name.c_str(), scene.title.c_str(),
@@ -98,6 +117,10 @@ std::string describe(const scene::Scene& given) {
   if (const sph::Fluid* fluid = simulation.fluid()) {
     text += format("fluid, spacing %.6g m\n", scene.fluid.lattice.spacing) + bodies(scene, *fluid);
     memory += double(fluid->memory_bytes());
+  }
+  if (const LineFlow* line = simulation.line()) {
+    text += format("one-dimensional mesh, cells of %.6g m in the core\n", scene.fluid.lattice.spacing) + layers(scene, *line);
+    memory += double(line->memory_bytes());
   }
   for (const auto& body : simulation.bodies()) {
     text += body->description();

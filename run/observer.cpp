@@ -20,8 +20,8 @@ std::vector<output::Column> energy_columns(bool gravity) {
 output::LastField last_field(const Simulation& simulation, const std::string& name) {
   const std::string body = name.substr(0, name.find('.')), field = name.substr(name.find('.') + 1);
   output::LastField last{.components = field == "position" || field == "velocity" ? 3 : 1, .values = {}};
-  if (body == "fluid" && simulation.fluid()) {
-    last.values = simulation.fluid()->field(field);
+  if (body == "fluid" && simulation.has_fluid()) {
+    last.values = simulation.fluid_field(field);
   } else if (name == "body.position" && !simulation.bodies().empty()) {
     for (const Vec3& x : simulation.bodies().front()->positions()) last.values.insert(last.values.end(), x.begin(), x.end());
   }

@@ -22,6 +22,7 @@ Read reader(std::vector<PointQuantity<Point>> quantities, int dimension, std::fu
 
 /// The material point nearest to x at the start, of whichever body.
 std::function<MaterialPoint()> material_point(const Simulation& simulation, const Vec3& x) {
+  if (simulation.line()) return simulation.line()->in_solid(x);
   const DeformableBody* owner = nullptr;
   BodyPoint nearest;
   for (const auto& body : simulation.bodies())
@@ -57,8 +58,14 @@ std::function<Point()> in_space(std::function<Point()> point, const std::optiona
   return [=, line = *meridian, outward = meridian->outward_at(x)] { return in_space(point(), line, outward); };
 }
 
-std::function<FluidPoint()> fluid_point(const Simulation& simulation, std::function<Vec3()> place) {
-  return [fluid = simulation.fluid(), place = std::move(place)] { return fluid->at(place()); };
+/// The fluid at x, or on the wall or body near it.
+std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3& x, bool on_wall, double reach) {
+  if (const LineFlow* line = simulation.line()) {
+    if (on_wall) return line->at_surface(x);
+    return [=] { return line->at(x); };
+  }
+  const std::function<Vec3()> place = on_wall ? place_on_wall(simulation, x, reach) : [x] { return x; };
+  return [fluid = simulation.fluid(), place] { return fluid->at(place()); };
 }
 
 }  // namespace
@@ -78,10 +85,9 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     } else {
       const auto quantities = chosen(fluid_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      std::function<Vec3()> place = [x] { return x; };
-      if (probe.kind == scene::Probe::Kind::wall) place = place_on_wall(simulation, x, 2.0 * scene.fluid.lattice.spacing);
-      read =
-          reader<FluidPoint>(quantities, dimension, in_space(fluid_point(simulation, std::move(place)), meridian, probe.point));
+      const bool on_wall = probe.kind == scene::Probe::Kind::wall;
+      const auto point = fluid_point(simulation, x, on_wall, 2.0 * scene.fluid.lattice.spacing);
+      read = reader<FluidPoint>(quantities, dimension, in_space(point, meridian, probe.point));
     }
     channels_.push_back({.probe = probe,
                          .read = std::move(read),

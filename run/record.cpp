@@ -17,6 +17,11 @@ void add(const sph::Fluid& fluid, output::RunRecord& record) {
       {"density", clamps.density}, {"smoothing", clamps.smoothing}, {"filling", clamps.filling}, {"energy", clamps.energy}};
 }
 
+void add(const LineFlow& line, output::RunRecord& record) {
+  record.cells = std::int64_t(line.cells());
+  record.solver_memory_bytes += std::int64_t(line.memory_bytes());
+}
+
 void add(const DeformableBody& body, output::RunRecord& record) {
   const auto particles = std::int64_t(body.size().particles);
   record.particles += particles;
@@ -45,6 +50,7 @@ output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulat
   record.cpu_time_s = since.cpu();
   record.threads = omp_get_max_threads();
   if (const sph::Fluid* fluid = simulation.fluid()) add(*fluid, record);
+  if (const LineFlow* line = simulation.line()) add(*line, record);
   for (const auto& body : simulation.bodies()) add(*body, record);
   record.peak_memory_bytes = output::peak_memory_bytes();
   record.mass_error = simulation.mass_error();

@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "core/shapes.hpp"
+#include "scene/line.hpp"
 #include "scene/revolution.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/walls/lattice_warnings.hpp"
@@ -18,6 +19,7 @@
 namespace undex::run {
 namespace {
 
+constexpr double bytes_of_line_cell = 400;
 // As `undex check` finds them once all is laid out (docs/performance.md), neighbours and transient copies counted.
 constexpr double bytes_of_particle = 260, bytes_of_wall_particle = 110, bytes_of_cell = 3000;
 constexpr double bytes_of_lagrangian[4] = {0, 700, 1800, 2800}, bytes_of_updated = 700;  // of a solid's particle, by dimension
@@ -123,6 +125,13 @@ Room room_of(const scene::Scene& given) {
   const scene::Scene scene = scene::for_solvers(given);
   Room room;
   const sph::Settings& fluid = scene.fluid;
+  if (on_a_line(scene.geometry)) {
+    const scene::Line line = scene::line_of(scene);
+    const double first = line.cell_width(line.inner(), fluid.lattice.spacing);
+    room.line_cells = (line.outer() - line.inner()) / first;  // more than there are, where they grow
+    room.bytes = bytes_of_line_cell * room.line_cells;
+    return room;
+  }
   for (const sph::Body& body : fluid.bodies)
     room.particles += particles_in(body.shape, body.spacing.value_or(fluid.lattice.spacing), fluid);
   for (const sph::Wall& wall : fluid.walls) room.wall_particles += particles_lining(wall, fluid);
@@ -152,9 +161,13 @@ std::string expect_room(const scene::Scene& scene) {
   const Room room = room_of(scene);
   const double limit = memory_limit();
   char text[400];
-  std::snprintf(text, sizeof text,
-                "%.4g particles of fluid, %.4g of solids, %.4g of walls and %.4g cells need about %s of memory", room.particles,
-                room.solid_particles, room.wall_particles, room.cells, gigabytes(room.bytes).c_str());
+  if (room.line_cells > 0)
+    std::snprintf(text, sizeof text, "at most %.4g cells on a line need about %s of memory", room.line_cells,
+                  gigabytes(room.bytes).c_str());
+  else
+    std::snprintf(text, sizeof text,
+                  "%.4g particles of fluid, %.4g of solids, %.4g of walls and %.4g cells need about %s of memory", room.particles,
+                  room.solid_particles, room.wall_particles, room.cells, gigabytes(room.bytes).c_str());
   const std::string words = text + std::string("; this machine has ") + gigabytes(limit);
   if (room.bytes <= limit) return words;
   if (bytes_of_cell * room.cells > 0.5 * room.bytes)
@@ -170,7 +183,7 @@ double bytes_on_disk(const scene::Scene& scene) {
   const Room room = room_of(scene);
   double snapshots = double(output.field_times.size());
   if (output.field_interval > 0) snapshots += scene.end_time / output.field_interval;
-  double each = room.particles * (8 * count_of(output.particle_fields) + 32);
+  double each = (room.particles + room.line_cells) * (8 * count_of(output.particle_fields) + 32);
   each += room.solid_particles * (8 * count_of(output.solid_fields) + 32);
   if (output.structure_fields) each += room.cells * 250;
   double columns = 14;  // of energy.csv
@@ -192,6 +205,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene, const std::files
   if (!error && written > free)
     warnings.push_back("snapshots and histories take about " + gigabytes(written) + ", and " + gigabytes(free) + " are free at " +
                        folder.string() + "; take longer intervals (output.field_interval, output.history_interval)");
+  if (on_a_line(scene.geometry)) return warnings;
   const std::vector<std::string> lattice = sph::lattice_warnings(scene::for_solvers(scene).fluid);
   warnings.insert(warnings.end(), lattice.begin(), lattice.end());
   return warnings;

@@ -14,6 +14,7 @@ struct Room {
   double solid_particles = 0;  ///< of solids
   double wall_particles = 0;   ///< in lined rigid walls
   double cells = 0;            ///< of a structure
+  double line_cells = 0;       ///< of the one-dimensional mesh, at most
   double bytes = 0;            ///< of memory, to a third
 };
 Room room_of(const scene::Scene& scene);

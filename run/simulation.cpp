@@ -42,6 +42,11 @@ std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
 std::array<bool, 3> balanced_axes(const scene::Scene& scene) {
   std::array<bool, 3> balanced;
   for (int a = 0; a < 3; ++a) balanced[a] = a < scene.fluid.dimension && !scene.fluid.symmetry.axis[a];
+  if (on_a_line(scene.geometry)) {
+    const scene::Line line = scene::line_of(scene);
+    balanced[0] = scene.geometry == scene::Geometry::plane && !line.closed[0] && !line.closed[1];
+    return {balanced[0], false, false};
+  }
   const bool mirrors = sph::mirrors_fluid(scene.fluid.numerics.scheme);
   for (const sph::Wall& wall : scene.fluid.walls) {
     const auto pushed = pushed_by(wall, mirrors);
@@ -115,6 +120,11 @@ void Simulation::build(const scene::Scene& scene) {
       findings.push_back(scene.places.finding(table_of(mistake.what(), table), mistake.what()));
     }
   };
+  if (on_a_line(scene.geometry)) {
+    line_ = std::make_unique<LineFlow>(scene);
+    driver_ = std::make_unique<OnALine>(*line_);
+    return;
+  }
   if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
   if (scene.structure) attempt("structure", [&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
   solid::Solids* solids = nullptr;
@@ -145,8 +155,10 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
-  for (int a = meridian_ ? 1 : 0; a < 3; ++a)  // a ring is whole
-    if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
+  // A ring is whole, and of concentric spheres all is computed.
+  if (scene.geometry != scene::Geometry::spherical)
+    for (int a = meridian_ ? 1 : 0; a < 3; ++a)
+      if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
   balanced_ = balanced_axes(scene);
   gravity_ = scene.fluid.gravity;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
@@ -156,11 +168,12 @@ void Simulation::take_start(const scene::Scene& scene) {
   start_momentum_ = momentum();
   start_angular_momentum_ = angular_momentum();
   start_energy_ = energy().total();
-  least_scale_ = copies_ * ((fluid_ ? compression_energy(*fluid_) : 0.0) + rounding_energy(scene, bodies_));
+  const double compression = fluid_ ? compression_energy(*fluid_) : line_ ? line_->compression_energy() : 0.0;
+  least_scale_ = copies_ * (compression + rounding_energy(scene, bodies_));
 }
 
-double Simulation::time() const { return fluid_ ? fluid_->time() : bodies_.front()->time(); }
-long Simulation::steps() const { return fluid_ ? fluid_->steps() : bodies_.front()->steps(); }
+double Simulation::time() const { return line_ ? line_->time() : fluid_ ? fluid_->time() : bodies_.front()->time(); }
+long Simulation::steps() const { return line_ ? line_->steps() : fluid_ ? fluid_->steps() : bodies_.front()->steps(); }
 
 void Simulation::advance(double end) {
   last_ = driver_->advance(end);
@@ -168,6 +181,7 @@ void Simulation::advance(double end) {
 }
 
 void Simulation::visit_state(StateVisitor& state) {
+  if (line_) state.part("line", [&] { line_->visit_state(state); });
   if (fluid_) state.part("fluid", [&] { fluid_->visit_state(state); });
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     state.part("body " + std::to_string(b), [&] { bodies_[b]->visit_state(state); });
@@ -182,6 +196,16 @@ void Simulation::find_rates_anew() {
 
 EnergyBalance Simulation::energy() const {
   EnergyBalance e;
+  if (line_) {
+    const LineLedger l = line_->ledger();
+    e.kinetic = copies_ * l.kinetic;
+    e.internal = copies_ * l.internal;
+    e.dissipated = copies_ * l.dissipated;
+    e.structure_kinetic = copies_ * l.solid_kinetic;
+    e.elastic = copies_ * l.elastic;
+    e.plastic = copies_ * l.plastic;
+    e.external = copies_ * l.external;
+  }
   if (fluid_) {
     const sph::Ledger l = fluid_->ledger();
     e.kinetic = copies_ * l.kinetic;
@@ -208,14 +232,14 @@ EnergyBalance Simulation::energy() const {
 
 /// Of what is in particles [kg].
 double Simulation::mass() const {
-  double mass = fluid_ ? fluid_->ledger().mass : 0.0;
+  double mass = fluid_ ? fluid_->ledger().mass : line_ ? line_->ledger().mass : 0.0;
   for (const auto& body : bodies_)
     if (in_particles(body)) mass += body->ledger().mass;
   return mass;
 }
 
 double Simulation::all_mass() const {
-  double mass = fluid_ ? fluid_->ledger().mass : 0.0;
+  double mass = fluid_ ? fluid_->ledger().mass : line_ ? line_->ledger().mass : 0.0;
   for (const auto& body : bodies_) mass += body->ledger().mass;
   return mass;
 }
@@ -223,6 +247,7 @@ double Simulation::all_mass() const {
 Vec3 Simulation::momentum() const {
   Vec3 momentum = Vec3::Zero();
   if (fluid_) momentum += fluid_->ledger().momentum;
+  if (line_) momentum[0] += line_->ledger().momentum;
   for (const auto& body : bodies_) momentum += body->ledger().momentum;
   return momentum;
 }
@@ -255,7 +280,7 @@ double Simulation::momentum_error() const {
 }
 
 std::optional<double> Simulation::angular_momentum_error() const {
-  if (fluid_ || !closed_ || !std::all_of(bodies_.begin(), bodies_.end(), in_particles)) return std::nullopt;
+  if (fluid_ || line_ || !closed_ || !std::all_of(bodies_.begin(), bodies_.end(), in_particles)) return std::nullopt;
   double kinetic = 0, inertia = 0;  // [J], [kg m^2]
   for (const auto& body : bodies_) {
     kinetic += body->ledger().kinetic;
@@ -282,7 +307,7 @@ std::optional<double> Simulation::interface_impulse_error() const {
 }
 
 double Simulation::maximum_pressure() const {
-  double most = fluid_ ? fluid_->maximum_pressure() : 0.0;
+  double most = fluid_ ? fluid_->maximum_pressure() : line_ ? line_->maximum_pressure() : 0.0;
   for (const auto& body : bodies_) most = std::max(most, body->maximum_pressure());
   return most;
 }

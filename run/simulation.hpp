@@ -1,4 +1,5 @@
-// What a scene asks for: water or none, deforming bodies, and the driver that advances them together.
+// What a scene asks for: water or none, deforming bodies, and the driver that advances them together; or all of it on the
+// one-dimensional mesh.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include "core/meridian.hpp"
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
+#include "run/line_flow.hpp"
 #include "scene/scene.hpp"
 #include "sph_fluid/water/fluid.hpp"
 
@@ -68,7 +70,11 @@ class Simulation {
 
   /// The meridian in which solvers see an axisymmetric scene: their places, and vectors, are (r, axial, 0).
   const std::optional<Meridian>& meridian() const { return meridian_; }
-  const sph::Fluid* fluid() const { return fluid_.get(); }
+  const sph::Fluid* fluid() const { return fluid_.get(); }  ///< in particles; null: none
+  const LineFlow* line() const { return line_.get(); }      ///< where all is on the one-dimensional mesh; else null
+  bool has_fluid() const { return fluid_ || line_; }
+  /// A field of the fluid's particles, or of the mesh's cells, at time().
+  std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
   /// Which particle is the fastest, of the water if there is some, and where; empty where there are none.
   std::string fastest_particle() const;
@@ -86,6 +92,7 @@ class Simulation {
   Vec3 angular_momentum() const;
 
   std::optional<Meridian> meridian_;
+  std::unique_ptr<LineFlow> line_;
   std::unique_ptr<sph::Fluid> fluid_;
   std::vector<std::unique_ptr<DeformableBody>> bodies_;
   std::unique_ptr<Driver> driver_;

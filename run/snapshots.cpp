@@ -29,13 +29,14 @@ std::vector<output::Field> borrowed(const Fields& fields) {
 }
 
 /// The water's places and the named fields of it.
-BodySnapshot snapshot_of(const sph::Fluid& fluid, const std::vector<std::string>& names) {
-  const std::vector<double> place = fluid.field("position");
+BodySnapshot snapshot_of(const Simulation& simulation, const std::vector<std::string>& names) {
+  const std::vector<double> place = simulation.fluid_field("position");
   BodySnapshot snapshot;
-  snapshot.position.resize(fluid.particle_count());
+  snapshot.position.resize(place.size() / 3);
   for (std::size_t i = 0; i < snapshot.position.size(); ++i)
     snapshot.position[i] = {place[3 * i], place[3 * i + 1], place[3 * i + 2]};
-  for (const std::string& name : names) snapshot.of_points.push_back({name, name == "velocity" ? 3 : 1, fluid.field(name)});
+  for (const std::string& name : names)
+    snapshot.of_points.push_back({name, name == "velocity" ? 3 : 1, simulation.fluid_field(name)});
   return snapshot;
 }
 
@@ -78,7 +79,7 @@ void Snapshots::open(bool goes_on) {
     const std::filesystem::path path = folder_ / (name + ".h5part");
     return goes_on ? output::ParticleFields::continued(path) : output::ParticleFields(path);
   };
-  if (simulation_.fluid()) water_ = particles("particles");
+  if (simulation_.has_fluid()) water_ = particles("particles");
   int of_particles = 0, of_cells = 0;
   const auto numbered = [](const std::string& stem, int count) { return count > 1 ? stem + std::to_string(count) : stem; };
   for (const auto& body : simulation_.bodies()) {
@@ -127,10 +128,10 @@ void Snapshots::write(bool at_stop) {
   last_time_ = simulation_.time();
   const std::optional<Meridian>& meridian = simulation_.meridian();
   // A coupled run that is stopped has its solvers up to a step apart.
-  if (const sph::Fluid* fluid = simulation_.fluid(); fluid && water_) {
-    const std::vector<double> id = fluid->field("id");
-    write_particles(fluid->time(), in_space(snapshot_of(*fluid, wanted_.particle_fields), meridian), {id.begin(), id.end()},
-                    at_stop, *water_);
+  if (water_) {
+    const std::vector<double> id = simulation_.fluid_field("id");
+    write_particles(simulation_.time(), in_space(snapshot_of(simulation_, wanted_.particle_fields), meridian),
+                    {id.begin(), id.end()}, at_stop, *water_);
   }
   for (BodyFile& file : bodies_) {
     const double time = file.body->time();

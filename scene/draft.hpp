@@ -40,7 +40,9 @@ std::string file_text(const std::filesystem::path& file);
 /// The folder of a file of the usual name, else the file without its ending; only what a name may hold.
 std::string name_of(const std::filesystem::path& file, const char* usual_name);
 
-void read_fluid(Draft& draft);      // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+void read_fluid(Draft& draft);  // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+/// Of scenes on the one-dimensional mesh: defaults that need all bodies.
+void complete_line(Draft& draft);
 void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
 void read_structure(Draft& draft);  // read_structure.cpp: [structure], [coupling]
 void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [start]

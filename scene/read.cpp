@@ -88,6 +88,7 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   read_fluid(draft);
   read_solids(draft);
   resolve_subtractions(draft);
+  complete_line(draft);
   read_structure(draft);
   read_output(draft);
   read_comparison(draft, kinds);

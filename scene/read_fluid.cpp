@@ -3,6 +3,7 @@
 
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
+#include "scene/line.hpp"
 #include "scene/numbers.hpp"
 #include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
@@ -13,8 +14,10 @@ namespace {
 using namespace materials;
 using sph::FaceCondition;
 
-/// Bodies need the scene's spacing, and solids without one of their own.
-bool needs_spacing(const Node& root) {
+/// Bodies need the scene's spacing, and solids without one of their own; a mesh has a default.
+bool needs_spacing(const Draft& draft) {
+  const Node& root = draft.root;
+  if (on_a_line(draft.scene.geometry)) return false;
   if (root.find("bodies")) return true;
   const Node* solids = root.find("solids");
   return solids &&
@@ -25,12 +28,12 @@ void read_resolution(const TableReader& top, Draft& draft) {
   sph::Lattice& lattice = draft.scene.fluid.lattice;
   const Node* node = top.table("resolution");
   if (!node) {
-    if (needs_spacing(draft.root) && !top.has("resolution"))
+    if (needs_spacing(draft) && !top.has("resolution"))
       draft.report.add(draft.root, "resolution.spacing is missing; add [resolution] with spacing = (particle distance in m)");
     return;
   }
   const TableReader table(*node, "resolution", "resolution", top.dimension(), draft.report);
-  if (needs_spacing(draft.root)) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
+  if (needs_spacing(draft)) table.need("spacing", "give the distance of particles in m, e.g. spacing = 0.002");
   read_fields(table, lattice);
   draft.spacing_good = lattice.spacing > 0;
 }
@@ -258,6 +261,22 @@ void read_wall(const Node& node, const std::string& path, Draft& draft) {
 }
 
 }  // namespace
+
+void complete_line(Draft& draft) {
+  Scene& scene = draft.scene;
+  if (!on_a_line(scene.geometry)) return;
+  sph::Lattice& lattice = scene.fluid.lattice;
+  const auto is_bad = [](const std::vector<bool>& good) { return std::find(good.begin(), good.end(), false) != good.end(); };
+  if (is_bad(draft.body_shape_good) || is_bad(draft.solid_shape_good)) return;
+  const Line line = line_of(scene);
+  if (!(lattice.spacing > 0) && !line.layers.empty()) lattice.spacing = default_spacing(line);
+  draft.spacing_good = lattice.spacing > 0;
+  for (std::size_t i = 0; i < scene.fluid.bodies.size(); ++i) {
+    sph::Body& body = scene.fluid.bodies[i];
+    const Node* burn = draft.body_nodes[i]->find("burn");
+    if (body.burn && !(burn && burn->kind == Node::Kind::table && burn->find("width"))) body.burn->width = 4.0 * lattice.spacing;
+  }
+}
 
 void read_fluid(Draft& draft) {
   const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);

@@ -142,9 +142,11 @@ void put_solid(Writer& writer, const solid::Body& solid) {
   put_solid_material(writer, "solids.material", solid.material);
 }
 
-void put_solids(Writer& writer, const solid::Settings& solids) {
-  writer.table("[solid_scheme]", "solid_scheme");
-  writer.fields(solids.numerics);
+void put_solids(Writer& writer, const solid::Settings& solids, bool line) {
+  if (!line) {
+    writer.table("[solid_scheme]", "solid_scheme");
+    writer.fields(solids.numerics);
+  }
   for (const solid::Body& solid : solids.bodies) put_solid(writer, solid);
 }
 
@@ -155,13 +157,17 @@ void put_planes(Writer& writer, const std::vector<RigidPlane>& planes) {
   }
 }
 
-void put_fluid(Writer& writer, const sph::Settings& fluid) {
+/// On a line without what is of particles.
+void put_fluid(Writer& writer, const sph::Settings& fluid, bool line) {
   writer.table("[resolution]", "resolution");
-  writer.fields(fluid.lattice, false);
+  if (line) writer.put("spacing", fluid.lattice.spacing);
+  else writer.fields(fluid.lattice, false);
   writer.table("[symmetry]", "symmetry");
   writer.fields(fluid.symmetry);
-  writer.table("[scheme]", "scheme");
-  writer.fields(fluid.numerics, false);
+  if (!line) {
+    writer.table("[scheme]", "scheme");
+    writer.fields(fluid.numerics, false);
+  }
   for (const sph::Body& body : fluid.bodies) put_body(writer, body);
   for (const sph::Wall& wall : fluid.walls) put_wall(writer, wall);
 }
@@ -170,18 +176,19 @@ void put_fluid(Writer& writer, const sph::Settings& fluid) {
 
 std::string to_toml(const Scene& scene) {
   const int dimension = scene.fluid.dimension;
+  const bool line = on_a_line(scene.geometry);
   Writer writer(dimension);
   writer.top();
   writer.fields(scene);
-  put_fluid(writer, scene.fluid);
+  put_fluid(writer, scene.fluid, line);
   if (scene.structure) {
     writer.set_dimension(3);
     put_structure(writer, *scene.structure);
     writer.set_dimension(dimension);
   }
-  if (!scene.solids.bodies.empty()) put_solids(writer, scene.solids);
+  if (!scene.solids.bodies.empty()) put_solids(writer, scene.solids, line);
   put_planes(writer, scene.solids.planes);
-  if (scene.structure || !scene.solids.bodies.empty()) {
+  if (!line && (scene.structure || !scene.solids.bodies.empty())) {
     writer.table("[coupling]", "coupling");
     writer.fields(scene.coupling);
   }

@@ -29,9 +29,12 @@ Validator::Validator(Draft& draft)
 }
 
 void Validator::run() {
-  geometry();
   names();
   parts();
+  if (on_a_line(scene_.geometry)) {
+    times();
+    return line();
+  }
   lattice();
   times();
   if (!draft_.dimension_good) return;
@@ -128,12 +131,6 @@ void Validator::names() {
   unique("probes", scene_.probes, draft_.probe_nodes);
 }
 
-void Validator::geometry() {
-  if (on_a_line(scene_.geometry))
-    complain(draft_.root, "dimension",
-             std::string("dimension = \"") + word_of(scene_.geometry) + "\" is not built yet; give a number of coordinates");
-}
-
 void Validator::parts() {
   const bool solids = !draft_.solid_nodes.empty();
   if (draft_.body_nodes.empty() && !draft_.structure_node && !solids)
@@ -143,7 +140,7 @@ void Validator::parts() {
     draft_.report.add(*draft_.structure_node,
                       "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
                       "either finite elements or particles; remove one of the two");
-  if (solids && draft_.dimension_good && dimension_ == 1)
+  if (solids && draft_.dimension_good && dimension_ == 1 && scene_.geometry != Geometry::plane)
     draft_.report.add(*draft_.solid_nodes[0],
                       "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
   if (!solids && !draft_.structure_node && !draft_.plane_nodes.empty())

@@ -10,6 +10,7 @@
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
 #include "scene/geometry.hpp"
+#include "scene/line.hpp"
 #include "scene/numbers.hpp"
 #include "scene/structure_shape.hpp"
 #include "scene/suggestion.hpp"
@@ -37,7 +38,6 @@ class Validator {
   };
 
   // validate.cpp
-  void geometry();
   void names();
   void parts();
   void collect();
@@ -88,6 +88,14 @@ class Validator {
 
   // validate_thin_walls.cpp
   void thin_walls();
+
+  // validate_line.cpp
+  void line();
+  void off_the_line(const std::string& words);
+  void cells_of(const Line& line);
+  void burns_on(const Line& line, const std::string& words);
+  void probe_on(const Line& line, const Probe& probe, const Node& node);
+  void of_particles(const std::string& words);
 
   // validate_probes.cpp
   double distance_to_solids(const Vec3& x) const;

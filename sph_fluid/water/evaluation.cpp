@@ -173,7 +173,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
       h_max = std::max(h_max, q.h);
       empty += energy < 0.0;
     }
-    if (rings_) p.ring[i] = rings_->row(r, q.h, q.vz);
+    if (rings_) p.ring[i] = rings_->row(r, q.h);
   }
   clamps_.energy += empty;
   clamps_.smoothing += held;

@@ -19,6 +19,7 @@ namespace {
 /// What a scene of the matrix is made of. Lengths in mm; "up" is the last axis.
 struct Column {
   int dimension = 3;
+  bool line = false;  // on the one-dimensional mesh
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
   bool slip = true, surface = false;  // of the coupling; solids by their wet faces
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
@@ -94,7 +95,7 @@ void Column::describe_plate(std::ostream& out) const {
 
 std::string Column::text() const {
   std::ostringstream out;
-  out << "end_time = 1e-3\nthreads = 1\ndimension = " << dimension << '\n';
+  out << "end_time = 1e-3\nthreads = 1\ndimension = " << (line ? "\"plane\"" : std::to_string(dimension)) << '\n';
   if (gravity) out << "gravity = " << point(0, -1e7) << '\n';
   out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n";
   if (plate != Plate::none) out << "[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
@@ -145,6 +146,12 @@ const std::vector<Feature>& features() {
        [](Column& c) {
          c.dimension = 1;
          c.plate = Plate::none;
+       }},
+      {"dimension", "one_coordinate",
+       [](Column& c) {
+         c.dimension = 1;
+         c.line = true;
+         if (c.elements()) c.plate = Plate::total;
        }},
       plate(Plate::none, "water_alone"),
       plate(Plate::shell, "shell"),

@@ -1,0 +1,285 @@
+#include "run/line_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+
+namespace undex::run {
+namespace {
+
+constexpr int least_cells = 8;              // of a layer
+constexpr double compressed = 1e-4;         // share of the density by which a front is known
+constexpr double fastest = 1e4;             // [m/s] no front goes by more between two looks
+constexpr double behind_front = 1.0 / 800;  // width that cells may have, over their distance from the front
+constexpr double most_growth = 1.1;         // of the way of the front between two merges
+
+/// Lays a layer out in cells of about the widths that the line asks for.
+void cut(const scene::Line& line, double spacing, exact::Layer& layer) {
+  const double length = layer.outer - layer.inner, most = length / least_cells;
+  std::vector<double> ends{0.0};
+  while (ends.back() < length) {
+    const double half = 0.5 * std::min(most, line.cell_width(layer.inner + ends.back(), spacing));
+    ends.push_back(ends.back() + std::min(most, line.cell_width(layer.inner + ends.back() + half, spacing)));
+  }
+  if (ends.back() - length > 0.5 * (ends.back() - ends[ends.size() - 2])) ends.pop_back();
+  layer.cells = static_cast<int>(ends.size()) - 1;
+  for (int i = 1; i < layer.cells; ++i) layer.places.push_back(layer.inner + ends[i] * (length / ends.back()));
+}
+
+exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spacing, double inner, double outer) {
+  exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer};
+  cut(line, spacing, layer);
+  layer.density = start_density(body);
+  layer.energy = start_energy(body);
+  layer.velocity = body.velocity[0] + body.radial_velocity;
+  if (body.burn && !body.burn->instantaneous) {
+    layer.burn = body.burn;
+    layer.burn->origin -= line.center;
+  }
+  if (body.start)
+    layer.start = [field = body.start, width = (outer - inner) / layer.cells](double x) {
+      const sph::StartState state = field->state(Vec3(x, 0, 0), width);
+      return exact::StartPoint{state.density, state.velocity[0], state.energy};
+    };
+  return layer;
+}
+
+exact::Layer layer_of(const solid::Body& body, const scene::Line& line, double spacing, double inner, double outer) {
+  exact::Layer layer{.law = body.material, .inner = inner, .outer = outer};
+  cut(line, spacing, layer);
+  layer.density = body.material.rho0;
+  layer.velocity = body.velocity[0];
+  return layer;
+}
+
+exact::Lagrangian1D mesh_of(const scene::Scene& scene, const scene::Line& line) {
+  std::vector<exact::Layer> layers;
+  const double spacing = scene.fluid.lattice.spacing;
+  for (const scene::LineLayer& layer : line.layers)
+    layers.push_back(layer.is_solid ? layer_of(scene.solids.bodies[layer.index], line, spacing, layer.inner, layer.outer)
+                                    : layer_of(scene.fluid.bodies[layer.index], line, spacing, layer.inner, layer.outer));
+  const auto end = [&](int which) { return line.closed[which] ? exact::Boundary::rigid : exact::Boundary::free; };
+  try {
+    return {scene.geometry == scene::Geometry::spherical ? 3 : 1, std::move(layers), end(0), end(1)};
+  } catch (const std::logic_error& mistake) {
+    throw SceneError(scene.file.string(), {scene.places.finding("dimension", mistake.what())});
+  }
+}
+
+}  // namespace
+
+LineFlow::LineFlow(const scene::Scene& scene)
+    : spherical_(scene.geometry == scene::Geometry::spherical),
+      line_(scene::line_of(scene)),
+      spacing_(scene.fluid.lattice.spacing),
+      mesh_(mesh_of(scene, line_)) {
+  for (const scene::LineLayer& layer : line_.layers)
+    material_.push_back(double(layer.index + (layer.is_solid ? scene.fluid.bodies.size() : 0)));
+}
+
+Step LineFlow::advance(double end) {
+  const double size = mesh_.step_towards(end);
+  if (line_.graded && time() >= next_look_) follow_front();
+  return {size, "cell"};
+}
+
+/// Looks for the front no farther than it can have come: what sets out from the outer end is no front.
+void LineFlow::follow_front() {
+  const double core = line_.core_high - line_.core_low;
+  const double limit = line_.core_high + front_ + fastest * (time() - last_look_);
+  front_ = std::max(front_, mesh_.front(compressed, limit) - line_.core_high);
+  last_look_ = time();
+  next_look_ = time() + 0.05 * (core + front_) / fastest;
+  mesh_.end_burns();
+  if (core + front_ < most_growth * (core + merged_at_)) return;
+  merged_at_ = front_;
+  const double at = line_.core_high + front_, width = line_.cell_width(at, spacing_);
+  mesh_.coarsen([=](double place) { return width + behind_front * std::max(0.0, at - place); }, least_cells);
+}
+
+void LineFlow::visit_state(StateVisitor& state) {
+  mesh_.visit_state(state);
+  state("next look", next_look_);
+  state("last look", last_look_);
+  state("front", front_);
+  state("merged at", merged_at_);
+}
+
+LineLedger LineFlow::ledger() const {
+  LineLedger all;
+  const auto u = mesh_.node_velocity(), m = mesh_.cell_mass(), e = mesh_.cell_energy(), node = mesh_.node_mass();
+  for (int i = 0; i < mesh_.cells(); ++i) {
+    all.mass += m[i];
+    const double kinetic = 0.25 * m[i] * (u[i] * u[i] + u[i + 1] * u[i + 1]);
+    (is_solid(i) ? all.solid_kinetic : all.kinetic) += kinetic;
+    (is_solid(i) ? all.elastic : all.internal) += m[i] * e[i];
+  }
+  for (std::size_t k = 0; k < node.size(); ++k) all.momentum += node[k] * u[k];
+  for (const double work : mesh_.solids().plastic_energy) all.plastic += work;
+  all.elastic -= all.plastic;
+  all.dissipated = mesh_.barotropic_heat();
+  all.internal -= all.dissipated;
+  all.external = -mesh_.boundary_work();
+  return all;
+}
+
+double LineFlow::compression_energy() const {
+  const auto p = mesh_.cell_pressure(), rho = mesh_.cell_density(), c = mesh_.cell_sound(), m = mesh_.cell_mass();
+  double sum = 0;
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (c[i] > 0) sum += 0.5 * m[i] * std::pow(p[i] / (rho[i] * c[i]), 2);
+  return sum;
+}
+
+double LineFlow::maximum_pressure() const {
+  const auto p = mesh_.cell_pressure();
+  return *std::max_element(p.begin(), p.end());
+}
+
+double LineFlow::place_of(const Vec3& x) const { return spherical_ ? (x - line_.center).norm() : x[0]; }
+
+Vec3 LineFlow::outward(const Vec3& x) const {
+  if (!spherical_) return Vec3::UnitX();
+  const double r = place_of(x);
+  return r > 0 ? Vec3((x - line_.center) / r) : Vec3(Vec3::UnitX());
+}
+
+Vec3 LineFlow::point_at(double place) const {
+  return spherical_ ? Vec3(line_.center + place * Vec3::UnitX()) : Vec3(place, 0, 0);
+}
+
+FluidPoint LineFlow::fluid_point(double density, double energy, double pressure, int layer, double velocity,
+                                 const Vec3& along) const {
+  const auto* fluid = std::get_if<materials::FluidLaw>(&mesh_.layer(layer).law);
+  if (!fluid) return {};
+  return {.pressure = pressure,
+          .density = density,
+          .void_fraction = std::visit([&](const auto& law) { return law.void_fraction(density, energy); }, *fluid),
+          .velocity = velocity * along,
+          .neighbours = 1};
+}
+
+FluidPoint LineFlow::at(const Vec3& x) const {
+  const auto r = mesh_.node_radius();
+  const double place = place_of(x), slack = 1e-9 * (r.back() - r.front());
+  if (place < r.front() - slack || place > r.back() + slack) return {};
+  const exact::PointState state = mesh_.at(std::clamp(place, r.front(), r.back()));
+  return fluid_point(state.density, state.energy, state.pressure, state.layer, state.velocity, outward(x));
+}
+
+std::function<FluidPoint()> LineFlow::at_surface(const Vec3& start) const {
+  const double place = place_of(start);
+  const int last = mesh_.layers() - 1;
+  // Ends of layers, each with the layer of fluid beside it.
+  struct End {
+    double place;
+    int layer;
+    bool outer;  // of that layer
+  };
+  std::vector<End> ends;
+  if (line_.closed[0]) ends.push_back({line_.inner(), 0, false});
+  if (line_.closed[1]) ends.push_back({line_.outer(), last, true});
+  for (int k = 0; k <= last; ++k) {
+    if (!line_.layers[k].is_solid) continue;
+    if (k > 0) ends.push_back({line_.layers[k].inner, k - 1, true});
+    if (k < last) ends.push_back({line_.layers[k].outer, k + 1, false});
+  }
+  if (ends.empty()) return [] { return FluidPoint{}; };
+  const End nearest = *std::min_element(ends.begin(), ends.end(), [&](const End& a, const End& b) {
+    return std::abs(a.place - place) < std::abs(b.place - place);
+  });
+  return [this, nearest, along = outward(start)] {
+    const int node = nearest.outer ? (nearest.layer + 1 < mesh_.layers() ? mesh_.first_cell(nearest.layer + 1) : mesh_.cells())
+                                   : mesh_.first_cell(nearest.layer);
+    const int cell = nearest.outer ? node - 1 : node;
+    return fluid_point(mesh_.cell_density()[cell], mesh_.cell_energy()[cell], mesh_.cell_pressure()[cell], nearest.layer,
+                       mesh_.node_velocity()[node], along);
+  };
+}
+
+std::function<MaterialPoint()> LineFlow::in_solid(const Vec3& start) const {
+  const double place = place_of(start);
+  int layer = -1;
+  double least = 1e300;
+  for (int k = 0; k < mesh_.layers(); ++k) {
+    if (!line_.layers[k].is_solid) continue;
+    const double away = std::max({0.0, line_.layers[k].inner - place, place - line_.layers[k].outer});
+    if (away < least) {
+      least = away;
+      layer = k;
+    }
+  }
+  if (layer < 0) return [] { return MaterialPoint{}; };
+  // The mass of the layer inside of the point stays what it is, however cells are merged.
+  const auto volume = [this](double r) { return spherical_ ? r * r * r : r; };
+  const double inner = line_.layers[layer].inner, outer = line_.layers[layer].outer;
+  const double share = std::clamp((volume(place) - volume(inner)) / (volume(outer) - volume(inner)), 0.0, 1.0);
+  return [=, this, along = outward(start)] {
+    const auto m = mesh_.cell_mass(), r = mesh_.node_radius(), u = mesh_.node_velocity();
+    const int begin = mesh_.first_cell(layer), end = layer + 1 < mesh_.layers() ? mesh_.first_cell(layer + 1) : mesh_.cells();
+    double below = 0, whole = 0;
+    for (int i = begin; i < end; ++i) whole += m[i];
+    int cell = begin;
+    while (cell + 1 < end && below + m[cell] < share * whole) below += m[cell++];
+    const double within = std::clamp((share * whole - below) / m[cell], 0.0, 1.0);
+    const double cubes = volume(r[cell]) + within * (volume(r[cell + 1]) - volume(r[cell]));
+    const double now = spherical_ ? std::cbrt(cubes) : cubes;
+    const double weight = (now - r[cell]) / (r[cell + 1] - r[cell]);
+    MaterialPoint point;
+    point.displacement = (now - place) * along;
+    point.position = start + point.displacement;
+    point.velocity = (u[cell] + weight * (u[cell + 1] - u[cell])) * along;
+    const double p = mesh_.cell_pressure()[cell], s = mesh_.solids().deviator[cell];
+    const Mat3 radial = along * along.transpose();
+    point.stress = (s - p) * radial + (-0.5 * s - p) * (Mat3::Identity() - radial);
+    point.plastic_strain = mesh_.solids().plastic_strain[cell];
+    point.temperature = mesh_.solids().temperature[cell];
+    return point;
+  };
+}
+
+std::vector<double> LineFlow::field(const std::string& name) const {
+  const int n = mesh_.cells();
+  const auto r = mesh_.node_radius(), u = mesh_.node_velocity();
+  const auto copied = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
+  if (name == "pressure") return copied(mesh_.cell_pressure());
+  if (name == "density") return copied(mesh_.cell_density());
+  if (name == "energy") return copied(mesh_.cell_energy());
+  if (name == "sound_speed") return copied(mesh_.cell_sound());
+  if (name == "mass") return copied(mesh_.cell_mass());
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(n) * 3);
+  for (int i = 0; i < n; ++i) {
+    const int layer = mesh_.cell_layer()[i];
+    if (name == "position") {
+      const Vec3 x = point_at(0.5 * (r[i] + r[i + 1]));
+      values.insert(values.end(), x.begin(), x.end());
+    } else if (name == "velocity") {
+      values.insert(values.end(), {0.5 * (u[i] + u[i + 1]), 0.0, 0.0});
+    } else if (name == "id") {
+      values.push_back(i);
+    } else if (name == "material") {
+      values.push_back(material_[layer]);
+    } else if (name == "smoothing_length") {
+      values.push_back(r[i + 1] - r[i]);
+    } else if (name == "void_fraction") {
+      const double rho = mesh_.cell_density()[i], e = mesh_.cell_energy()[i];
+      values.push_back(fluid_point(rho, e, 0.0, layer, 0.0, Vec3::Zero()).void_fraction);
+    } else {
+      throw std::invalid_argument("no field '" + name + "' of cells");
+    }
+  }
+  return values;
+}
+
+std::vector<std::size_t> LineFlow::cells_by_layer() const {
+  std::vector<std::size_t> count(line_.layers.size(), 0);
+  for (const int layer : mesh_.cell_layer()) ++count[layer];
+  return count;
+}
+
+std::size_t LineFlow::memory_bytes() const { return 40 * sizeof(double) * cells(); }
+
+}  // namespace undex::run

@@ -1,0 +1,85 @@
+// A scene that needs one coordinate, on the one-dimensional Lagrangian mesh (exact/lagrangian_1d.hpp): its bodies and solids as
+// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and somewhat wider away from it.
+// What the first wave's front has left behind is merged, the more the farther behind, and what is ahead of it costs nothing. So
+// the cells at work are a few times those of the core, however far the wave goes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/point_values.hpp"
+#include "exact/lagrangian_1d.hpp"
+#include "run/driver.hpp"
+#include "scene/line.hpp"
+#include "scene/scene.hpp"
+
+namespace undex::run {
+
+/// Energies [J] of the whole sphere; in a plane per area [m^2], of what is computed.
+struct LineLedger {
+  double kinetic = 0, internal = 0, dissipated = 0;    ///< of fluids; heat of shocks in barotropic ones
+  double solid_kinetic = 0, elastic = 0, plastic = 0;  ///< of solids; what shocks left in them is in the elastic part
+  double external = 0;                                 ///< work of pressure from outside
+  double mass = 0, momentum = 0;                       ///< [kg], along x in a plane [kg m/s]
+};
+
+class LineFlow {
+ public:
+  /// Throws SceneError where the mesh refuses the scene.
+  explicit LineFlow(const scene::Scene& scene);
+
+  double time() const { return mesh_.time(); }
+  long steps() const { return mesh_.steps(); }
+  Step advance(double end);  ///< one step, not beyond `end` [s]
+  void visit_state(StateVisitor& state);
+  const exact::Lagrangian1D& mesh() const { return mesh_; }
+  const scene::Line& line() const { return line_; }
+
+  LineLedger ledger() const;
+  bool pushed_at_ends() const { return spherical_ || line_.closed[0] || line_.closed[1]; }
+  /// Kinetic energy of small waves against the present pressure [J]: sum of V p^2/(2 rho c^2).
+  double compression_energy() const;
+  double maximum_pressure() const;
+
+  /// The fluid at a point of space; nothing (zeros) outside of it and in solids.
+  FluidPoint at(const Vec3& x) const;
+  /// The fluid at the end or the solid's surface nearest to a place of the start, whenever asked.
+  std::function<FluidPoint()> at_surface(const Vec3& start) const;
+  /// The material point of a solid at a place of the start, whenever asked.
+  std::function<MaterialPoint()> in_solid(const Vec3& start) const;
+  /// A field of all cells by the name that particles have for it (docs/outputs.md); places are (r, 0, 0) from the middle, or x.
+  std::vector<double> field(const std::string& name) const;
+
+  std::size_t cells() const { return static_cast<std::size_t>(mesh_.cells()); }
+  std::vector<std::size_t> cells_by_layer() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  void follow_front();
+  double place_of(const Vec3& x) const;
+  Vec3 outward(const Vec3& x) const;
+  Vec3 point_at(double place) const;
+  bool is_solid(int cell) const { return line_.layers[mesh_.cell_layer()[cell]].is_solid; }
+  /// Cell state as fluid, with velocity along `along` [m/s].
+  FluidPoint fluid_point(double density, double energy, double pressure, int layer, double velocity, const Vec3& along) const;
+
+  bool spherical_;
+  scene::Line line_;
+  double spacing_;
+  std::vector<double> material_;  // number of each layer's body; solids count on after the bodies
+  exact::Lagrangian1D mesh_;
+  // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge [m].
+  double next_look_ = 0, last_look_ = 0, front_ = 0, merged_at_ = 0;
+};
+
+class OnALine : public Driver {
+ public:
+  explicit OnALine(LineFlow& flow) : flow_(flow) {}
+  Step advance(double end) override { return flow_.advance(end); }
+
+ private:
+  LineFlow& flow_;
+};
+
+}  // namespace undex::run
