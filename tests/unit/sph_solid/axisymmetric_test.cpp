@@ -155,7 +155,7 @@ TEST(SolidsOfRevolution, UniformStressLeavesTheInsideAtRest) {
 }
 
 TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
-  // Squeezed at its rim, slowly: Lame's solution is uniform. What a free surface makes of the pressure that one column receives is
+  // Squeezed at its rim, slowly: Lame's solution is uniform. What a free surface makes of the pressure that one column gets is
   // the same for all inside.
   const double dx = 0.001, R = 0.012, p = 1e8, ramp = 40 * R / std::sqrt(young / density);
   Scene s({body(section(0, R, 0, 0.04))}, dx);
@@ -190,7 +190,7 @@ TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
 
 TEST(SolidsOfRevolution, ThinRingBreathes) {
   // sqrt(E/rho)/R for a thin one. A square section of half width e R moves as r^-nu and by -nu u z/r along the axis, without
-  // stress across the ring; Rayleigh's quotient of that motion is 1 + (1 + 4 nu - nu^2) e^2/3 times the thin one's, to second order.
+  // stress across the ring; Rayleigh's quotient of that motion is 1 + (1 + 4 nu - nu^2) e^2/3 times the thin one's, to e^2.
   const double R = 0.1;
   double error[2];
   for (int level = 0; level < 2; ++level) {
