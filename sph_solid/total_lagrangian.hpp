@@ -18,8 +18,8 @@
 // Of a body of revolution x = (r, axial, 0) lies in its meridian, V are volumes of whole rings, A = V/(2 pi R) areas, and
 //   w_ij = A_i A_j 2 pi |R_i + R_j|/2 grad W_ij,   F_theta = r/R,   f_i receives -V_i P_theta/R_i along r.
 // A pair's ring is the one half-way between both, R_j of an image across the axis being negative. F is exact for u_r = a R,
-// u_z = b Z + c all the same, and the force is still the derivative of sum V P : dF/dt. With areas alone for weights (R_i in place
-// of the mean) uniform stress would throw the first column off the axis; half-way rings leave an eighth of that force, which is
+// u_z = b Z + c all the same, and the force is the derivative of sum V P : dF/dt. With areas alone for weights (R_i in place
+// of the mean) uniform stress would throw the first column off the axis; half-way rings leave a quarter of that force, which is
 // taken away by what the first column borrows: its F_theta is (1 - b) r/R + b (r/R of the next column), b such that the columns
 // of a lattice stay at rest under uniform pressure (total_lagrangian_rings.cpp).
 #pragma once

@@ -15,7 +15,7 @@ class WallLining {
  public:
   /// Must they be packed (anew)?
   bool waits(const Settings& settings, const std::vector<LinedWall>& moving) const;
-  /// Where no wall moves this is done once, and what they are made from is not kept. In a scene of revolution the rows are those of
+  /// Where no wall moves this is done once, and what they are made from is not kept. In a meridian the rows are those of
   /// rings (schemes/rings.hpp); throws std::invalid_argument where such a wall is not smooth.
   void pack(const Settings& settings, const std::vector<LinedWall>& moving, const RingKernel* rings);
   bool packed() const { return packed_; }

@@ -150,8 +150,6 @@ TEST(RingsAndSolids, WhatTheWaterLosesTheDiscGains) {
     EXPECT_NEAR(given / received, 1.0, 0.02);
     EXPECT_NEAR(solids.ledger().balance() / received, 0.0, 0.01);
     EXPECT_NEAR(total(fluid.ledger()) / (first.kinetic + first.internal), 1.0, 0.01);
-    std::printf("rings: momentum %.1e, given/received %.4f, energy %.1e\n", (fluid.ledger().momentum[1] + moved) / start - 1,
-                given / received, total(fluid.ledger()) / (first.kinetic + first.internal) - 1);
   }
 }
 
@@ -177,7 +175,6 @@ TEST(RingsAndSolids, WaterUnderPressureRestsOnADisc) {
   s.water.walls[0].faces["y_low"] = FaceCondition::open;
   s.solids.bodies[0].shape = box(Vec3(0, -0.03, 0), Vec3(0.04, 0, 0));
   const double plane = unrest(s.water, s.solids.bodies[0], false), rings = unrest(s.water, s.solids.bodies[0], true);
-  std::printf("disc: %.4f in the plane, %.4f about the axis\n", plane, rings);
   EXPECT_LT(plane, 0.001);
   // Of a smooth wall only forces along its normal count, and beside the axis the rows of a lattice balance together, not each.
   EXPECT_LT(rings, 0.02);
@@ -193,7 +190,6 @@ TEST(RingsAndSolids, WaterUnderPressureRestsInATubeAsInThePlane) {
   tube.shape = box(Vec3(0.02, -0.02, 0), Vec3(0.04, 0.07, 0));
   tube.wet = {"x_low"};
   const double plane = unrest(s.water, tube, false), rings = unrest(s.water, tube, true);
-  std::printf("tube: %.4f in the plane, %.4f about the axis\n", plane, rings);
   EXPECT_LT(rings, 1.2 * plane + 0.005);
 }
 

@@ -148,16 +148,15 @@ TEST(SolidsOfRevolution, UniformStressLeavesTheInsideAtRest) {
         EXPECT_LT(std::abs(solids->accelerations()[i][1]) * density * dx / p, 1e-9);
       }
     }
-    std::printf("eta %.1f: first column %.4f, further in %.4f, at the surfaces %.2f p/(rho dx)\n", eta, worst[0], worst[1],
-                worst[2]);
     EXPECT_LT(worst[0], 1e-9) << eta;
     EXPECT_LT(worst[1], eta < 1.4 ? 0.01 : 0.02) << eta;
+    EXPECT_LT(worst[2], 2.0) << eta;  // at free surfaces, as in the plane
   }
 }
 
 TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
-  // Squeezed at its rim, slowly: Lame's solution is uniform. What the spring layer of free surfaces makes of the pressure that one
-  // column receives is the same for all inside.
+  // Squeezed at its rim, slowly: Lame's solution is uniform. What a free surface makes of the pressure that one column gets is
+  // the same for all inside.
   const double dx = 0.001, R = 0.012, p = 1e8, ramp = 40 * R / std::sqrt(young / density);
   Scene s({body(section(0, R, 0, 0.04))}, dx);
   s.around.symmetry.axis[1] = true;
@@ -184,15 +183,14 @@ TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
   }
   EXPECT_NEAR(mean, 1.0, 0.03);
   for (int k = 0; k < 8; ++k) {
-    std::printf("column %d: radial %.4f, hoop %.4f p\n", k, radial[k], hoop[k]);
     EXPECT_NEAR(radial[k] / mean, 1.0, 0.015) << k;
     EXPECT_NEAR(hoop[k] / mean, 1.0, 0.015) << k;
   }
 }
 
 TEST(SolidsOfRevolution, ThinRingBreathes) {
-  // sqrt(E/rho)/R for a thin one. A square section of half width e R moves as r^-nu and by -nu u z/r along the axis, without stress
-  // across the ring; Rayleigh's quotient of that motion is 1 + (1 + 4 nu - nu^2) e^2/3 times the thin one's, to second order.
+  // sqrt(E/rho)/R for a thin one. A square section of half width e R moves as r^-nu and by -nu u z/r along the axis, without
+  // stress across the ring; Rayleigh's quotient of that motion is 1 + (1 + 4 nu - nu^2) e^2/3 times the thin one's, to e^2.
   const double R = 0.1;
   double error[2];
   for (int level = 0; level < 2; ++level) {
@@ -210,7 +208,6 @@ TEST(SolidsOfRevolution, ThinRingBreathes) {
     const double e = half / R, thick = 1 + (1 + 4 * poisson - poisson * poisson) * e * e / 6;
     error[level] = found * R / std::sqrt(young / density) / thick - 1;
   }
-  std::printf("ring: %.5f %.5f\n", error[0], error[1]);
   EXPECT_LT(std::abs(error[0]), 1e-3);
   EXPECT_LT(std::abs(error[1]), 2e-4);
 }
@@ -234,7 +231,6 @@ TEST(SolidsOfRevolution, BarRingsAtLovesFrequency) {
     // Love 1888: (k nu)^2 times the square of the section's polar radius of gyration, a^2/2.
     error[level] = found / (k * std::sqrt(young / density)) * std::sqrt(1 + poisson * poisson * k * k * a * a / 2) - 1;
   }
-  std::printf("bar: %.5f %.5f\n", error[0], error[1]);
   EXPECT_LT(std::abs(error[1]), 0.005);
   EXPECT_LT(std::abs(error[1]), 0.5 * std::abs(error[0]) + 5e-4);
 }
@@ -268,7 +264,6 @@ TEST(SolidsOfRevolution, SphereBreathes) {
         2);
     error[level] = found / exact - 1;
   }
-  std::printf("sphere: %.5f %.5f\n", error[0], error[1]);
   EXPECT_LT(std::abs(error[1]), 0.01);
   EXPECT_LT(std::abs(error[1]), 0.4 * std::abs(error[0]));
 }
@@ -287,8 +282,6 @@ TEST(SolidsOfRevolution, ImpactConservesMomentumAndEnergy) {
   const BodyLedger start = solids->ledger();
   solids->advance(8e-6);
   const BodyLedger end = solids->ledger();
-  std::printf("impact: momentum %.2e, energy %.2e, disc's share %.2f\n", end.momentum[1] / start.momentum[1] - 1,
-              end.balance() / start.balance() - 1, 1 - end.kinetic / start.kinetic);
   EXPECT_NEAR(end.momentum[1] / start.momentum[1], 1.0, 1e-13);
   EXPECT_NEAR(end.balance() / start.balance(), 1.0, 2e-3);
   EXPECT_GT(end.plastic, 0.05 * start.kinetic);
@@ -328,9 +321,6 @@ TEST(SolidsOfRevolution, TaylorBarIsThatOfThreeDimensions) {
   const auto at = [](const Solids& solids, const Vec3& X) { return solids.read(solids.locate(X)).position; };
   const double length = at(*meridian, Vec3(0, L, 0))[1], length3 = at(*quarter, Vec3(0, 0, L))[2];
   const double rim = at(*meridian, Vec3(R, 0, 0))[0], rim3 = at(*quarter, Vec3(R, 0, 0))[0];
-  std::printf("bar: length %.4f (3D %.4f) mm, rim %.4f (%.4f) mm, plastic %.4f (%.4f), balance %.5f (%.5f)\n", 1e3 * length,
-              1e3 * length3, 1e3 * rim, 1e3 * rim3, one.plastic / kinetic, 4 * other.plastic / kinetic, one.balance() / kinetic,
-              4 * other.balance() / kinetic);
   EXPECT_NEAR(one.balance() / kinetic, 1.0, 5e-3);
   EXPECT_NEAR(length / length3, 1.0, 0.01);
   EXPECT_NEAR(rim / rim3, 1.0, 0.02);  // the corner's own spacing: 2.5 % at R/5, 0.6 % at R/9.5 of a bar of usual length
