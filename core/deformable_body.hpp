@@ -68,7 +68,7 @@ struct BodySnapshot {
     std::vector<double> values;
   };
   std::vector<Vec3> position;             ///< of nodes or particles [m]
-  std::vector<std::array<int, 8>> cells;  ///< nodes of hexahedra in VTK's order
+  std::vector<std::array<int, 8>> cells;  ///< nodes in VTK's order, of hexahedra or of a meridian (core/hexahedral_mesh.hpp)
   std::vector<Field> of_points, of_cells;
 };
 

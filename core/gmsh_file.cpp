@@ -7,12 +7,13 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <set>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "core/record.hpp"
+#include "core/surface.hpp"
 
 namespace undex {
 namespace {
@@ -110,9 +111,41 @@ class Lines {
   long number_ = 0;
 };
 
+/// What cells and faces are called, their elements, and how to get them.
+struct Kind {
+  int dimension;  ///< of the cells
+  const char *cell, *cells, *face, *face_entity;
+  int cell_type, face_type;
+  const char *wanted, *remedy;
+  std::span<const int[4]> sides;  ///< a cell's faces
+};
+constexpr Kind hexahedra{.dimension = 3,
+                         .cell = "hexahedron",
+                         .cells = "hexahedra",
+                         .face = "quadrangle",
+                         .face_entity = "surface",
+                         .cell_type = 5,
+                         .face_type = 3,
+                         .wanted = "the mesh must hold hexahedra only (and the quadrangles of their faces)",
+                         .remedy = "mesh with recombined, transfinite volumes in gmsh",
+                         .sides = hexahedron_faces};
+constexpr Kind quadrangles{.dimension = 2,
+                           .cell = "quadrangle",
+                           .cells = "quadrangles",
+                           .face = "line",
+                           .face_entity = "curve",
+                           .cell_type = 3,
+                           .face_type = 1,
+                           .wanted =
+                               "the mesh of an axisymmetric body must hold quadrangles of its meridian only (and the lines "
+                               "of their sides)",
+                           .remedy = "mesh the meridian with recombined surfaces in gmsh",
+                           .sides = std::span(hexahedron_faces).subspan(2)};
+
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& path) : lines_(text, path) {}
+  Reader(std::string_view text, const std::string& path, GmshCells cells)
+      : lines_(text, path), kind_(cells == GmshCells::hexahedra ? hexahedra : quadrangles) {}
 
   HexahedralMesh mesh() {
     read_format();
@@ -120,8 +153,9 @@ class Reader {
     if (!has_nodes_) lines_.fail("the file ends without $Nodes; it is cut off or holds no mesh");
     if (!has_elements_) lines_.fail("the file ends without $Elements; it is cut off or holds no mesh");
     if (cells_.empty())
-      lines_.fail("the mesh holds no hexahedra; mesh with recombined, transfinite volumes in gmsh, and save the volumes too");
+      lines_.fail(std::string("the mesh holds no ") + kind_.cells + "; " + kind_.remedy + ", and save them too");
     keep_used_nodes();
+    if (kind_.dimension == 2) lay_into_meridian();
     check_shapes();
     check_distinct_nodes();
     find_outer_faces();
@@ -133,7 +167,7 @@ class Reader {
 
   void read_format() {
     if (!lines_.next() || lines_.words()[0] != "$MeshFormat")
-      lines_.fail(std::string("this is not a hexahedral gmsh mesh: it does not begin with $MeshFormat; ") + resave);
+      lines_.fail(std::string("this is not a gmsh mesh of ") + kind_.cells + ": it does not begin with $MeshFormat; " + resave);
     lines_.need_words("$MeshFormat", 3, "the version");
     const double version = lines_.real(0, "the version");
     const long long binary = lines_.whole(1, "the file type", 0, 1);
@@ -224,8 +258,8 @@ class Reader {
     long long id = 0;
     for (long long k = 0; k < groups; ++k)
       id = std::abs(lines_.whole(at + 1 + std::size_t(k), "a physical group", -2000000000, 2000000000));
-    if (groups > 1 && dimension == 2)
-      lines_.fail("the surface " + std::to_string(tag) + " belongs to " + std::to_string(groups) +
+    if (groups > 1 && dimension == kind_.dimension - 1)
+      lines_.fail(std::string("the ") + kind_.face_entity + " " + std::to_string(tag) + " belongs to " + std::to_string(groups) +
                   " physical groups, but a face has one name; leave it in one of them");
     std::size_t used = at + 1 + std::size_t(groups);
     if (dimension > 0) {
@@ -317,16 +351,13 @@ class Reader {
   const ElementType& type(long long number) {
     for (const ElementType& each : known_types)
       if (each.number == number) {
-        if (number == 2 || number == 4 || number > 5)
-          if (number != 15)
-            lines_.fail(std::string("a ") + each.name +
-                        ": the mesh must hold hexahedra only (and the quadrangles of their faces);"
-                        " mesh with recombined, transfinite volumes in gmsh");
+        const bool below = each.dimension < kind_.dimension - 1 || number == 1;  // points and lines
+        if (!below && number != kind_.cell_type && number != kind_.face_type)
+          lines_.fail(std::string("a ") + each.name + ": " + kind_.wanted + "; " + kind_.remedy);
         return each;
       }
-    lines_.fail("elements of type " + std::to_string(number) +
-                " are not read: the mesh must hold hexahedra of 8 nodes only (and quadrangles of 4); mesh with recombined, "
-                "transfinite volumes of the first order in gmsh");
+    lines_.fail("elements of type " + std::to_string(number) + " are not read: " + kind_.wanted + ", of the first order; " +
+                kind_.remedy);
   }
 
   void add_element(const ElementType& of, std::size_t first_word, int id, long long tag) {
@@ -341,14 +372,15 @@ class Reader {
         lines_.fail(std::string("a ") + of.name + " has the node " + std::to_string(node) + " twice; it is collapsed");
       nodes.push_back(found->second);
     }
-    if (of.number == 5) {
+    if (of.number == kind_.cell_type) {
       std::array<int, 8> cell;
-      std::copy(nodes.begin(), nodes.end(), cell.begin());
+      for (std::size_t k = 0; k < 8; ++k) cell[k] = nodes[k % of.nodes];
       cells_.push_back(cell);
       cell_lines_.push_back(lines_.number());
-    } else if (of.number == 3) {
-      quads_.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}, id});
-      quad_lines_.push_back(lines_.number());
+    } else if (of.number == kind_.face_type) {
+      if (kind_.dimension == 2) faces_.push_back({{nodes[0], nodes[1], nodes[1], nodes[0]}, id});
+      else faces_.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}, id});
+      face_lines_.push_back(lines_.number());
     }
   }
 
@@ -417,13 +449,31 @@ class Reader {
       }
     for (auto& cell : cells_)
       for (int& node : cell) node = kept[node];
-    for (std::size_t q = 0; q < quads_.size(); ++q)
-      for (int& node : quads_[q].nodes) {
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      for (int& node : faces_[f].nodes) {
         node = kept[node];
         if (node < 0)
-          lines_.fail(quad_lines_[q], "the quadrangle is a face of no hexahedron; remove it, or mesh the volume behind it");
+          lines_.fail(face_lines_[f], std::string("the ") + kind_.face + " is a face of no " + kind_.cell +
+                                          "; remove it, or mesh what is behind it");
       }
     mesh_.cells = cells_;
+  }
+
+  /// Nodes of a meridian lie in the plane z = 0, at or beyond the axis.
+  void lay_into_meridian() {
+    const Bounds box = bounds(mesh_);
+    const double near = 1e-9 * (box.high - box.low).maxCoeff();
+    for (std::size_t i = 0; i < mesh_.nodes.size(); ++i) {
+      Vec3& x = mesh_.nodes[i];
+      const std::string node = "the node " + std::to_string(node_tags_[original_[i]]) + " at " + place(x);
+      if (std::abs(x[2]) > near)
+        lines_.fail(node_lines_[original_[i]],
+                    node + " lies off the plane z = 0; mesh the meridian, with x the distance from the axis and y along it");
+      if (x[0] < -near)
+        lines_.fail(node_lines_[original_[i]], node + " lies beyond the axis x = 0; mesh the half of the meridian with x >= 0");
+      if (x[0] <= near) x[0] = 0.0;
+      x[2] = 0.0;
+    }
   }
 
   std::string place(const Vec3& x) const {
@@ -444,7 +494,7 @@ class Reader {
       const double flat = 1e-12 * longest * longest * longest;
       if (*least > flat || *most < -flat) continue;
       lines_.fail(cell_lines_[c],
-                  "the hexahedron near " + place(mesh_.nodes[mesh_.cells[c][0]]) +
+                  std::string("the ") + kind_.cell + " near " + place(mesh_.nodes[mesh_.cells[c][0]]) +
                       " is inverted or flat: its nodes are out of order or at the wrong place; repair the mesh there");
     }
   }
@@ -453,8 +503,10 @@ class Reader {
     double shortest = 1e300;
     for (const auto& cell : mesh_.cells)
       for (const auto& face : hexahedron_faces)
-        for (int v = 0; v < 4; ++v)
-          shortest = std::min(shortest, (mesh_.nodes[cell[face[v]]] - mesh_.nodes[cell[face[(v + 1) % 4]]]).norm());
+        for (int v = 0; v < 4; ++v) {
+          const int a = cell[face[v]], b = cell[face[(v + 1) % 4]];
+          if (a != b) shortest = std::min(shortest, (mesh_.nodes[a] - mesh_.nodes[b]).norm());
+        }
     const double unit = std::max(1e-6 * shortest, 1e-13 * Range::farthest);
     std::map<std::array<long long, 3>, int> at;
     const auto key = [&](const Vec3& x) {
@@ -492,37 +544,44 @@ class Reader {
       return a[2] == b[std::size_t(at + 2) % 4];  // else a diagonal of one is a side of the other
     };
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      for (const auto& face : hexahedron_faces) {
+      for (const auto& face : kind_.sides) {
         std::array<int, 4> nodes;
         for (int v = 0; v < 4; ++v) nodes[v] = mesh_.cells[c][face[v]];
         Seen& one = seen[sorted(nodes)];
         if (one.cells[1] >= 0)
-          lines_.fail(cell_lines_[c], "a face of this hexahedron belongs to three of them; remove the one too many");
+          lines_.fail(cell_lines_[c],
+                      std::string("a face of this ") + kind_.cell + " belongs to three of them; remove the one too many");
         if (one.cells[0] >= 0 && !same_round(one.nodes, nodes))
-          lines_.fail(cell_lines_[c], "this hexahedron and that of line " + std::to_string(cell_lines_[one.cells[0]]) +
+          lines_.fail(cell_lines_[c], std::string("this ") + kind_.cell + " and that of line " +
+                                          std::to_string(cell_lines_[one.cells[0]]) +
                                           " share four nodes, but not the same face; repair the order of its nodes");
         one.cells[one.cells[0] < 0 ? 0 : 1] = int(c);
         if (one.cells[1] < 0) one.nodes = nodes;
         else expect_two_sides(one.nodes, one.cells);
       }
-    for (std::size_t q = 0; q < quads_.size(); ++q) {
-      const auto found = seen.find(sorted(quads_[q].nodes));
-      if (found == seen.end() || !same_round(found->second.nodes, quads_[q].nodes))
-        lines_.fail(quad_lines_[q], "the quadrangle is a face of no hexahedron; remove it, or repair the order of its nodes");
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const auto& [nodes, id] = faces_[f];
+      const auto found = seen.find(sorted(nodes));
+      if (found == seen.end() || !same_round(found->second.nodes, nodes))
+        lines_.fail(face_lines_[f], std::string("the ") + kind_.face + " is a face of no " + kind_.cell +
+                                        "; remove it, or repair the order of its nodes");
       Seen& one = found->second;
       if (one.cells[1] >= 0) {
-        if (quads_[q].id == 0) continue;
-        lines_.fail(quad_lines_[q], "the quadrangle of group " + std::to_string(quads_[q].id) +
-                                        " lies inside the mesh, between two hexahedra; name outer faces only");
+        if (id == 0) continue;
+        lines_.fail(face_lines_[f], std::string("the ") + kind_.face + " of group " + std::to_string(id) +
+                                        " lies inside the mesh, between two " + kind_.cells + "; name outer faces only");
       }
-      if (one.tagged && one.id != quads_[q].id)
-        lines_.fail(quad_lines_[q], "the face belongs to the groups " + std::to_string(one.id) + " and " +
-                                        std::to_string(quads_[q].id) + ", but has one name; leave it in one of them");
-      one.id = quads_[q].id;
+      if (one.tagged && one.id != id)
+        lines_.fail(face_lines_[f], "the face belongs to the groups " + std::to_string(one.id) + " and " + std::to_string(id) +
+                                        ", but has one name; leave it in one of them");
+      one.id = id;
       one.tagged = true;
     }
+    const auto on_axis = [&](const Seen& one) {
+      return kind_.dimension == 2 && mesh_.nodes[one.nodes[0]][0] == 0.0 && mesh_.nodes[one.nodes[1]][0] == 0.0;
+    };
     for (const auto& [key, one] : seen)
-      if (one.cells[1] < 0) mesh_.faces.push_back({one.nodes, one.id});
+      if (one.cells[1] < 0 && !on_axis(one)) mesh_.faces.push_back({one.nodes, one.id});
   }
 
   /// Two cells lie on either side of their common face, not one in the other.
@@ -532,39 +591,44 @@ class Reader {
       for (const int node : of) sum += mesh_.nodes[node];
       return Vec3(sum / double(of.size()));
     };
-    const Vec3 normal = (mesh_.nodes[face[2]] - mesh_.nodes[face[0]]).cross(mesh_.nodes[face[3]] - mesh_.nodes[face[1]]);
+    const std::array<Vec3, 4> corner = corners_of(face, mesh_.nodes);
+    const Vec3 normal = (corner[2] - corner[0]).cross(corner[3] - corner[1]);
     const Vec3 at = middle(face);
     const double a = normal.dot(middle(mesh_.cells[cells[0]]) - at), b = normal.dot(middle(mesh_.cells[cells[1]]) - at);
     if (a * b < 0) return;
-    lines_.fail(cell_lines_[cells[1]], "this hexahedron overlaps that of line " + std::to_string(cell_lines_[cells[0]]) +
+    lines_.fail(cell_lines_[cells[1]], std::string("this ") + kind_.cell + " overlaps that of line " +
+                                           std::to_string(cell_lines_[cells[0]]) +
                                            ", with which it shares a face; remove one of them, or repair the place of its nodes");
   }
 
   Lines lines_;
+  const Kind& kind_;
   bool four_ = false, has_entities_ = false, has_nodes_ = false, has_elements_ = false;
   std::map<long long, int> groups_[4];  // physical group by entity
   std::vector<Vec3> nodes_;
-  std::vector<long> node_lines_, cell_lines_, quad_lines_;
+  std::vector<long> node_lines_, cell_lines_, face_lines_;
   std::vector<long long> node_tags_;
   std::vector<std::size_t> original_;  // of the nodes that are kept
   std::unordered_map<long long, int> index_;
   std::unordered_map<long long, int> element_tags_;
   std::vector<std::array<int, 8>> cells_;
-  std::vector<HexahedralMesh::Face> quads_;
+  std::vector<HexahedralMesh::Face> faces_;
   HexahedralMesh mesh_;
 };
 
 }  // namespace
 
-HexahedralMesh parse_gmsh(std::string_view text, const std::string& path) { return Reader(text, path).mesh(); }
+HexahedralMesh parse_gmsh(std::string_view text, const std::string& path, GmshCells cells) {
+  return Reader(text, path, cells).mesh();
+}
 
-HexahedralMesh read_gmsh(const std::string& path) {
+HexahedralMesh read_gmsh(const std::string& path, GmshCells cells) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file)
     throw std::invalid_argument(path + ": the mesh file cannot be read; give the path of a gmsh .msh file that you may read");
-  return parse_gmsh(text.str(), path);
+  return parse_gmsh(text.str(), path, cells);
 }
 
 }  // namespace undex

@@ -1,4 +1,5 @@
-// Meshes of hexahedra in gmsh's format: .msh 2 (2.0 to 2.2) and 4.1, ASCII (Gmsh reference manual, section "MSH file format").
+// Meshes of hexahedra, or of quadrangles in a meridian, in gmsh's format: .msh 2 (2.0 to 2.2) and 4.1, ASCII (Gmsh reference
+// manual, section "MSH file format").
 #pragma once
 
 #include <string>
@@ -8,12 +9,17 @@
 
 namespace undex {
 
-/// Nodes that no hexahedron has are left out; points and lines are passed over. Throws std::invalid_argument with a message
+/// What a mesh is made of: hexahedra; or, for a body of revolution, quadrangles in the plane z = 0 with x the distance from the
+/// axis and y along it. Their outer sides are the faces (those on the axis are none), named by lines as faces by quadrangles.
+enum class GmshCells { hexahedra, quadrangles };
+
+/// Nodes that no cell has are left out; points and lines are passed over. Throws std::invalid_argument with a message
 /// "path:line: what is wrong; remedy" for everything that is not a sound mesh: a file cut off, counts that do not fit, unknown
-/// or repeated tags, other elements than hexahedra and quadrangles, numbers out of range, nodes at one place, cells that are
-/// flat, turned inside out or not joined face to face, and quadrangles that are not outer faces.
-HexahedralMesh read_gmsh(const std::string& path);
+/// or repeated tags, other elements than the cells and their faces, numbers out of range, nodes at one place, cells that are
+/// flat, turned inside out or not joined face to face, faces that are not outer ones, and
+/// of a meridian nodes off its plane or beyond the axis. Nodes within 1e-9 of the mesh's extent are put on plane and axis.
+HexahedralMesh read_gmsh(const std::string& path, GmshCells cells = GmshCells::hexahedra);
 /// The same of the file's text; `path` is for messages.
-HexahedralMesh parse_gmsh(std::string_view text, const std::string& path);
+HexahedralMesh parse_gmsh(std::string_view text, const std::string& path, GmshCells cells = GmshCells::hexahedra);
 
 }  // namespace undex

@@ -7,13 +7,15 @@
 #include <map>
 #include <numeric>
 
+#include "core/surface.hpp"
+
 namespace undex {
 namespace {
 
-Vec3 middle_of(const std::vector<Vec3>& nodes, const auto& of) {
+Vec3 middle_of(const auto& corners) {
   Vec3 sum = Vec3::Zero();
-  for (const int node : of) sum += nodes[node];
-  return sum / double(of.size());
+  for (const Vec3& x : corners) sum += x;
+  return sum / double(corners.size());
 }
 
 /// Boxes in a binary tree, halved at the median of their middles.
@@ -118,13 +120,22 @@ std::map<std::array<int, 4>, std::vector<int>> cells_of_faces(const HexahedralMe
 
 }  // namespace
 
+std::array<Vec3, 8> corners_of(const std::array<int, 8>& cell, std::span<const Vec3> position) {
+  std::array<Vec3, 8> corner;
+  for (int i = 0; i < 8; ++i) corner[i] = position[cell[i]];
+  if (is_quadrangle(cell))
+    for (int i = 0; i < 8; ++i) corner[i][2] += i < 4 ? -0.5 : 0.5;
+  return corner;
+}
+
 std::array<double, 8> corner_volumes(const std::vector<Vec3>& nodes, const std::array<int, 8>& cell) {
   constexpr int corners[8][4] = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
                                  {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
+  const std::array<Vec3, 8> at = corners_of(cell, nodes);
   std::array<double, 8> volume;
   for (int i = 0; i < 8; ++i) {
-    const Vec3& x = nodes[cell[corners[i][0]]];
-    volume[i] = (nodes[cell[corners[i][1]]] - x).cross(nodes[cell[corners[i][2]]] - x).dot(nodes[cell[corners[i][3]]] - x);
+    const Vec3& x = at[corners[i][0]];
+    volume[i] = (at[corners[i][1]] - x).cross(at[corners[i][2]] - x).dot(at[corners[i][3]] - x);
   }
   return volume;
 }
@@ -213,21 +224,20 @@ MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 double MeshDistance::signed_distance(const Vec3& x) const {
   const std::vector<Vec3>& nodes = mesh_->nodes;
   const auto to_face = [&](std::size_t f) {
-    const auto& face = mesh_->faces[f].nodes;
-    const Vec3 middle = middle_of(nodes, face);
+    const std::array<Vec3, 4> corner = corners_of(mesh_->faces[f].nodes, nodes);
+    const Vec3 middle = middle_of(corner);
     double least = 1e300;
-    for (int v = 0; v < 4; ++v)
-      least = std::min(least, distance_to_triangle(x, middle, nodes[face[v]], nodes[face[(v + 1) % 4]]));
+    for (int v = 0; v < 4; ++v) least = std::min(least, distance_to_triangle(x, middle, corner[v], corner[(v + 1) % 4]));
     return least;
   };
   const auto in_cell = [&](std::size_t c) {
-    const auto& cell = mesh_->cells[c];
-    const Vec3 center = middle_of(nodes, cell);
+    const std::array<Vec3, 8> cell = corners_of(mesh_->cells[c], nodes);
+    const Vec3 center = middle_of(cell);
     for (const auto& face : hexahedron_faces) {
-      const std::array<int, 4> corners{cell[face[0]], cell[face[1]], cell[face[2]], cell[face[3]]};
-      const Vec3 middle = middle_of(nodes, corners);
+      const std::array<Vec3, 4> corner{cell[face[0]], cell[face[1]], cell[face[2]], cell[face[3]]};
+      const Vec3 middle = middle_of(corner);
       for (int v = 0; v < 4; ++v)
-        if (in_tetrahedron(x, center, middle, nodes[corners[v]], nodes[corners[(v + 1) % 4]])) return true;
+        if (in_tetrahedron(x, center, middle, corner[v], corner[(v + 1) % 4])) return true;
     }
     return false;
   };

@@ -1,8 +1,12 @@
 // A mesh of hexahedra as a file gives it, and what checks ask of it: its outer faces, its pieces, the distance of a point.
+//
+// The mesh of a meridian (of an axisymmetric scene) is held alike: a quadrangle a, b, c, d in the plane z = 0 is the cell
+// {a, b, c, d, a, b, c, d}, its side from a to b the face {a, b, b, a}. Where geometry is asked for, both are drawn out along z.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/vector.hpp"
@@ -11,7 +15,7 @@ namespace undex {
 
 struct HexahedralMesh {
   std::vector<Vec3> nodes;                ///< [m], each a corner of some cell
-  std::vector<std::array<int, 8>> cells;  ///< nodes in VTK's order, or mirrored
+  std::vector<std::array<int, 8>> cells;  ///< nodes in VTK's order, or mirrored; all of them hexahedra, or all quadrangles
   struct Face {
     std::array<int, 4> nodes;  ///< round it
     int id;                    ///< its physical group; 0: none
@@ -21,6 +25,12 @@ struct HexahedralMesh {
 
 /// The six faces of a hexahedron in VTK's order, each round its normal to the outside.
 constexpr int hexahedron_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+/// Is the cell a quadrangle of a meridian?
+constexpr bool is_quadrangle(const std::array<int, 8>& cell) { return cell[0] == cell[4]; }
+
+/// The corners [m] of a cell: those of a quadrangle half a metre to either side of its plane.
+std::array<Vec3, 8> corners_of(const std::array<int, 8>& cell, std::span<const Vec3> position);
 
 /// Three times the volume of the corner's three edges for each of the eight corners: all of one sign in a sound cell [m^3].
 std::array<double, 8> corner_volumes(const std::vector<Vec3>& nodes, const std::array<int, 8>& cell);

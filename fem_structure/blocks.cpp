@@ -1,4 +1,4 @@
-// Structured hexahedra of tubes, rods and plates. Nodes of round surfaces lie on true circles, those of symmetry planes
+// Structured cells of tubes, rods and plates. Nodes of round surfaces lie on true circles, those of symmetry planes
 // exactly on the plane.
 #include "fem_structure/blocks.hpp"
 
@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "fem_structure/mistakes.hpp"
 
@@ -123,6 +125,40 @@ void add_block(Blocks& blocks, std::array<int, 3> n, const Vertex& vertex, const
       }
 }
 
+void check_sizes(Mistakes& mistakes, const TubeMesh& mesh) {
+  mistakes.require(mesh.inner_radius > 0.0, "inner radius = ", mesh.inner_radius,
+                   " m; a tube needs a bore, use a rod for a solid bar");
+  mistakes.require(mesh.outer_radius > mesh.inner_radius && std::isfinite(mesh.outer_radius),
+                   "outer radius = ", mesh.outer_radius, " m must exceed the inner radius = ", mesh.inner_radius, " m");
+  mistakes.require(mesh.cells_through >= 1, "cells_through = ", mesh.cells_through, "; at least 1 cell is needed");
+}
+
+void check_radius(Mistakes& mistakes, const RodMesh& mesh) {
+  mistakes.require(mesh.radius > 0.0 && std::isfinite(mesh.radius), "radius = ", mesh.radius, " m must be positive");
+}
+
+/// A rectangle of a meridian, radially from `low` to `high` [m].
+Blocks rectangle(double low, double high, int cells, const Extent& along, std::vector<std::string> names,
+                 const std::array<int, 6>& faces) {
+  Blocks blocks;
+  blocks.names = std::move(names);
+  for (int j = 0; j <= along.cells; ++j)
+    for (int i = 0; i <= cells; ++i)
+      blocks.vertices.emplace_back(i == cells ? high : low + (high - low) * i / cells, along.at(j), 0.0);
+  const auto vertex = [&](int i, int j, int) { return static_cast<unsigned>(j * (cells + 1) + i); };
+  add_block(blocks, {cells, along.cells, 1}, vertex, faces);
+  return blocks;
+}
+
+/// A round body's meridian is that of the axis of revolution.
+Extent kept_meridian(Mistakes& mistakes, const auto& mesh, const std::vector<int>& symmetry_axes) {
+  mistakes.require(mesh.axis == 1 && mesh.center[0] == 0.0 && mesh.center[2] == 0.0,
+                   "its axis is not the axis of revolution; move it there, or compute in 3D");
+  for (const int axis : symmetry_axes)
+    mistakes.require(axis == 1, "symmetry axis ", axis, " does not exist in a meridian; only that along the axis, 1, does");
+  return kept(mistakes, mesh.low, mesh.high, mesh.cells_along, 1, symmetry_axes, "cells_along");
+}
+
 }  // namespace
 
 Blocks build_blocks(const TubeMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who) {
@@ -130,11 +166,7 @@ Blocks build_blocks(const TubeMesh& mesh, const std::vector<int>& symmetry_axes,
   check_symmetry_axes(mistakes, symmetry_axes);
   check_round(mistakes, mesh.axis, mesh.center);
   mistakes.throw_if_any();
-  mistakes.require(mesh.inner_radius > 0.0, "inner radius = ", mesh.inner_radius,
-                   " m; a tube needs a bore, use a rod for a solid bar");
-  mistakes.require(mesh.outer_radius > mesh.inner_radius && std::isfinite(mesh.outer_radius),
-                   "outer radius = ", mesh.outer_radius, " m must exceed the inner radius = ", mesh.inner_radius, " m");
-  mistakes.require(mesh.cells_through >= 1, "cells_through = ", mesh.cells_through, "; at least 1 cell is needed");
+  check_sizes(mistakes, mesh);
   mistakes.require(mesh.cells_around >= 8 && mesh.cells_around % 4 == 0, "cells_around = ", mesh.cells_around,
                    "; give the cells of the full turn, a multiple of 4 and at least 8");
   const Extent along = kept(mistakes, mesh.low, mesh.high, mesh.cells_along, mesh.axis, symmetry_axes, "cells_along");
@@ -194,7 +226,7 @@ Blocks build_blocks(const RodMesh& mesh, const std::vector<int>& symmetry_axes, 
   check_symmetry_axes(mistakes, symmetry_axes);
   check_round(mistakes, mesh.axis, mesh.center);
   mistakes.throw_if_any();
-  mistakes.require(mesh.radius > 0.0 && std::isfinite(mesh.radius), "radius = ", mesh.radius, " m must be positive");
+  check_radius(mistakes, mesh);
   mistakes.require(mesh.cells_radial >= 2, "cells_radial = ", mesh.cells_radial,
                    "; a rod needs at least 2 cells from its axis to its rim");
   const Extent along = kept(mistakes, mesh.low, mesh.high, mesh.cells_along, mesh.axis, symmetry_axes, "cells_along");
@@ -250,6 +282,33 @@ Blocks build_blocks(const RodMesh& mesh, const std::vector<int>& symmetry_axes, 
               [&](int i, int j, int k) { return k * per_layer + rings[quarter][j * (ring + 1) + i]; }, {-1, 0, -1, -1, low, 1});
   }
   return blocks;
+}
+
+Blocks build_meridian(const TubeMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who) {
+  Mistakes mistakes(who);
+  check_sizes(mistakes, mesh);
+  const Extent along = kept_meridian(mistakes, mesh, symmetry_axes);
+  mistakes.throw_if_any();
+  std::vector<std::string> names{"inner", "outer", "high"};
+  if (!along.cut) names.push_back("low");
+  return rectangle(mesh.inner_radius, mesh.outer_radius, mesh.cells_through, along, names, {0, 1, along.cut ? -1 : 3, 2, -1, -1});
+}
+
+Blocks build_meridian(const RodMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who) {
+  Mistakes mistakes(who);
+  check_radius(mistakes, mesh);
+  mistakes.require(mesh.cells_radial >= 1, "cells_radial = ", mesh.cells_radial, "; at least 1 cell is needed");
+  const Extent along = kept_meridian(mistakes, mesh, symmetry_axes);
+  mistakes.throw_if_any();
+  std::vector<std::string> names{"side", "high"};
+  if (!along.cut) names.push_back("low");
+  return rectangle(0.0, mesh.radius, mesh.cells_radial, along, names, {-1, 0, along.cut ? -1 : 2, 1, -1, -1});
+}
+
+Blocks build_meridian(const PlateMesh&, const std::vector<int>&, const std::string& who) {
+  throw std::invalid_argument(who +
+                              ": a plate is a box, which is not of revolution; take a rod (a disc is a short one), or "
+                              "compute in 3D");
 }
 
 }  // namespace undex::fem

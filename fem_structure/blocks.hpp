@@ -1,4 +1,4 @@
-// Structured hexahedra of tubes, rods and plates, as vertices, cells and named boundary faces, before deal.II sees them.
+// Structured cells of tubes, rods and plates, as vertices, cells and named boundary faces, before deal.II sees them.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace undex::fem {
 
-/// Vertices of cells and faces run lexicographically (first direction fastest), as deal.II wants them.
+/// Vertices of cells and faces run lexicographically (first direction fastest), as deal.II wants them. Those of a meridian's
+/// quadrangles and of their sides come twice.
 struct Blocks {
   struct Face {
     std::array<unsigned, 4> vertices;
@@ -27,5 +28,10 @@ struct Blocks {
 Blocks build_blocks(const TubeMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
 Blocks build_blocks(const RodMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
 Blocks build_blocks(const PlateMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
+
+/// The same of the body's meridian (Settings::axisymmetric): a rectangle. A box has none.
+Blocks build_meridian(const TubeMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
+Blocks build_meridian(const RodMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
+Blocks build_meridian(const PlateMesh& mesh, const std::vector<int>& symmetry_axes, const std::string& who);
 
 }  // namespace undex::fem

@@ -64,14 +64,19 @@ class ElementSet {
   struct Moduli {
     double bulk, twice_shear;  ///< [Pa]
   };
-  using CellVectors = double[3][8];  ///< [component][node]
+  /// [component][node]; a quadrangle has the first four nodes, and (r, axial, hoop) for components.
+  using CellVectors = double[3][8];
 
-  ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity);
+  /// `at_once`: cells that `advance_cells` takes.
+  ElementSet(const Grid& grid, const materials::Solid& material, double linear_viscosity, double quadratic_viscosity,
+             std::size_t at_once = 1);
   /// For the constructors of the kinds, when their state is that of the start.
   void find_first_steps(const Grid& grid);
 
-  /// One cell of `advance`: leaves its forces in corner_force_; false where it inverted or is not finite.
-  virtual bool advance_cell(std::size_t cell, std::span<const Vec3> x, std::span<const Vec3> u, double dt) = 0;
+  /// `count` cells of `advance` from `first` on, as many as go through the law at once (fewer at the end): leaves their forces
+  /// in corner_force_. Returns the first that inverted or is not finite, or -1.
+  virtual long advance_cells(std::size_t first, std::size_t count, std::span<const Vec3> x, std::span<const Vec3> u,
+                             double dt) = 0;
   virtual void linear_cell_force(const CellVectors& x, const CellVectors& u, Moduli moduli, CellVectors& force) const = 0;
   virtual Moduli moduli(std::size_t cell) const = 0;  ///< elastic, in the cell's present state
 
@@ -86,7 +91,7 @@ class ElementSet {
 
   materials::Solid material_;
   double linear_viscosity_, quadratic_viscosity_;
-  std::vector<std::array<int, 8>> cells_;
+  std::vector<std::array<int, 8>> cells_;  ///< as the grid has them
   // State of the points that go through the stress update, eight at a time.
   std::array<std::vector<double>, 6> deviator_;  ///< xx, yy, zz, yz, zx, xy [Pa]
   std::vector<double> plastic_strain_, temperature_, weight_;
@@ -101,11 +106,13 @@ class ElementSet {
   double damped_share(std::size_t cell, double compression_rate) const;
   void gather(const std::vector<double>& corner_force, std::span<Vec3> force) const;
 
+  bool axisymmetric_;
+  std::size_t nodes_per_cell_, at_once_;
   std::vector<std::size_t> corners_begin_;  ///< per node, into corners_
-  std::vector<std::size_t> corners_;        ///< 8 cell + corner of every cell at the node
+  std::vector<std::size_t> corners_;        ///< nodes_per_cell_ cell + corner of every cell at the node
   std::vector<double> frequency_, frequency_bulk_, strain_since_, compression_rate_, critical_step_;  ///< per cell
-  std::vector<double> mode_;  ///< [24] per cell, the cell's highest mode
-  // Scratch: force of every cell on its corners, [24] per cell.
+  std::vector<double> mode_;  ///< [3 nodes_per_cell_] per cell, the cell's highest mode
+  // Scratch: force of every cell on its corners, as many.
   std::vector<double> corner_force_;
 };
 

@@ -16,108 +16,133 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/gmsh_file.hpp"
+#include "core/surface.hpp"
 #include "fem_structure/blocks.hpp"
 
 namespace undex::fem {
 namespace {
 
-using Triangulation = dealii::Triangulation<3>;
-
 // deal.II counts a cell's vertices lexicographically, VTK counter-clockwise: VTK's vertex i is deal.II's to_dealii[i].
+// Quadrangles (dim = 2) are as the first half of a hexahedron.
 constexpr std::array<unsigned, 8> to_dealii{0, 1, 3, 2, 4, 5, 7, 6};
-constexpr std::array<unsigned, 4> around_face{0, 1, 3, 2};
+template <int dim>
+constexpr std::array<unsigned, 4> around_face =
+    dim == 3 ? std::array<unsigned, 4>{0, 1, 3, 2} : std::array<unsigned, 4>{0, 1, 1, 0};
+template <int dim>
+constexpr unsigned cell_nodes = 1u << dim;
 
-dealii::Point<3> point(const Vec3& x) { return {x[0], x[1], x[2]}; }
-Vec3 vector(const dealii::Point<3>& x) { return {x[0], x[1], x[2]}; }
+template <int dim>
+dealii::Point<dim> point(const Vec3& x) {
+  dealii::Point<dim> p;
+  for (unsigned d = 0; d < dim; ++d) p[d] = x[d];
+  return p;
+}
+template <int dim>
+Vec3 vector(const dealii::Point<dim>& p) {
+  Vec3 x = Vec3::Zero();
+  for (unsigned d = 0; d < dim; ++d) x[d] = p[d];
+  return x;
+}
 
-/// Faces on the boundary are given the ids of `id_of`, by their vertices in order; others keep 0.
-void name_faces(Triangulation& triangulation, const std::map<std::array<unsigned, 4>, unsigned>& id_of) {
+/// Vertices of a face in order: by these it is found.
+template <int dim>
+using FaceKey = std::array<unsigned, cell_nodes<dim> / 2>;
+template <int dim>
+FaceKey<dim> key_of(const auto& vertices) {
+  FaceKey<dim> key;
+  for (std::size_t v = 0; v < key.size(); ++v) key[v] = unsigned(vertices[v]);
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// Faces on the boundary are given the ids of `id_of`; others keep 0.
+template <int dim>
+void name_faces(dealii::Triangulation<dim>& triangulation, const std::map<FaceKey<dim>, unsigned>& id_of) {
   for (const auto& cell : triangulation.active_cell_iterators())
     for (const auto& face : cell->face_iterators())
       if (face->at_boundary()) {
-        std::array<unsigned, 4> key;
-        for (unsigned v = 0; v < 4; ++v) key[v] = face->vertex_index(v);
-        std::sort(key.begin(), key.end());
-        const auto found = id_of.find(key);
+        FaceKey<dim> vertices;
+        for (unsigned v = 0; v < vertices.size(); ++v) vertices[v] = face->vertex_index(v);
+        const auto found = id_of.find(key_of<dim>(vertices));
         if (found != id_of.end()) face->set_boundary_id(found->second);
       }
 }
 
-std::vector<dealii::Point<3>> points(const std::vector<Vec3>& places) {
-  std::vector<dealii::Point<3>> vertices;
+template <int dim>
+std::vector<dealii::Point<dim>> points(const std::vector<Vec3>& places) {
+  std::vector<dealii::Point<dim>> vertices;
   vertices.reserve(places.size());
-  for (const Vec3& x : places) vertices.push_back(point(x));
+  for (const Vec3& x : places) vertices.push_back(point<dim>(x));
   return vertices;
 }
 
 /// Named faces have the boundary ids 1, 2, ...; what is left without a name keeps 0.
-void create(Triangulation& triangulation, const Blocks& blocks) {
-  std::vector<dealii::CellData<3>> cells(blocks.cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c) cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].end());
-  triangulation.create_triangulation(points(blocks.vertices), cells, dealii::SubCellData());
-  std::map<std::array<unsigned, 4>, unsigned> id_of;
-  for (const Blocks::Face& face : blocks.faces) {
-    auto key = face.vertices;
-    std::sort(key.begin(), key.end());
-    id_of[key] = unsigned(face.name) + 1;
-  }
-  name_faces(triangulation, id_of);
+template <int dim>
+void create(dealii::Triangulation<dim>& triangulation, const Blocks& blocks) {
+  std::vector<dealii::CellData<dim>> cells(blocks.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    cells[c].vertices.assign(blocks.cells[c].begin(), blocks.cells[c].begin() + cell_nodes<dim>);
+  triangulation.create_triangulation(points<dim>(blocks.vertices), cells, dealii::SubCellData());
+  std::map<FaceKey<dim>, unsigned> id_of;
+  for (const Blocks::Face& face : blocks.faces) id_of[key_of<dim>(face.vertices)] = unsigned(face.name) + 1;
+  name_faces<dim>(triangulation, id_of);
 }
 
 /// A mesh that was checked when it was read: deal.II turns mirrored cells and orders them alike.
-void create(Triangulation& triangulation, const HexahedralMesh& mesh) {
-  std::vector<dealii::CellData<3>> cells(mesh.cells.size());
+template <int dim>
+void create(dealii::Triangulation<dim>& triangulation, const HexahedralMesh& mesh) {
+  std::vector<dealii::CellData<dim>> cells(mesh.cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
-    for (unsigned i = 0; i < 8; ++i) cells[c].vertices[dealii::GeometryInfo<3>::ucd_to_deal[i]] = unsigned(mesh.cells[c][i]);
-  const std::vector<dealii::Point<3>> vertices = points(mesh.nodes);
+    for (unsigned i = 0; i < cell_nodes<dim>; ++i)
+      cells[c].vertices[dealii::GeometryInfo<dim>::ucd_to_deal[i]] = unsigned(mesh.cells[c][i]);
+  const std::vector<dealii::Point<dim>> vertices = points<dim>(mesh.nodes);
   dealii::GridTools::invert_cells_with_negative_measure(vertices, cells);
   dealii::GridTools::consistently_order_cells(cells);
   triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
-  std::map<std::array<unsigned, 4>, unsigned> id_of;
-  for (const HexahedralMesh::Face& face : mesh.faces) {
-    std::array<unsigned, 4> key;
-    for (int v = 0; v < 4; ++v) key[v] = unsigned(face.nodes[v]);
-    std::sort(key.begin(), key.end());
-    id_of[key] = unsigned(face.id);
-  }
-  name_faces(triangulation, id_of);
+  std::map<FaceKey<dim>, unsigned> id_of;
+  for (const HexahedralMesh::Face& face : mesh.faces) id_of[key_of<dim>(face.nodes)] = unsigned(face.id);
+  name_faces<dim>(triangulation, id_of);
 }
 
-HexahedralMesh read_mesh(const GmshMesh& mesh, const std::string& who) {
+HexahedralMesh read_mesh(const GmshMesh& mesh, GmshCells cells, const std::string& who) {
   try {
-    return read_gmsh(mesh.path);
+    return read_gmsh(mesh.path, cells);
   } catch (const std::invalid_argument& mistake) {
     throw std::invalid_argument(who + ": " + mistake.what());
   }
 }
 
-void take_reference_cell(const dealii::FE_Q<3>& element, const dealii::QGauss<3>& rule, ReferenceCell& reference) {
-  for (unsigned q = 0; q < rule.size(); ++q) {
-    reference.weight[q] = rule.weight(q);
-    for (unsigned d = 0; d < 3; ++d) reference.point[q][d] = rule.point(q)[d];
-    for (unsigned i = 0; i < 8; ++i) {
-      reference.value[i][q] = element.shape_value(to_dealii[i], rule.point(q));
-      const auto gradient = element.shape_grad(to_dealii[i], rule.point(q));
-      for (unsigned d = 0; d < 3; ++d) reference.gradient[d][i][q] = gradient[d];
+/// The same lanes for the points of each cell that fills them.
+template <int dim>
+void take_reference_cell(const dealii::FE_Q<dim>& element, const dealii::QGauss<dim>& rule, ReferenceCell& reference) {
+  reference = {};
+  for (unsigned q = 0; q < 8; ++q) {
+    const unsigned at = q % rule.size();
+    reference.weight[q] = rule.weight(at);
+    for (unsigned d = 0; d < dim; ++d) reference.point[q][d] = rule.point(at)[d];
+    for (unsigned i = 0; i < cell_nodes<dim>; ++i) {
+      reference.value[i][q] = element.shape_value(to_dealii[i], rule.point(at));
+      const auto gradient = element.shape_grad(to_dealii[i], rule.point(at));
+      for (unsigned d = 0; d < dim; ++d) reference.gradient[d][i][q] = gradient[d];
     }
   }
 }
 
-/// The smallest Jacobian determinant over the cell's corners and quadrature points.
+/// The smallest Jacobian determinant over the cell's corners and quadrature points; of a ring, that of its section.
 double smallest_jacobian(const Grid& grid, const std::array<int, 8>& cell) {
-  const auto corner = [&](int i, int j, int k, int l) {
-    const Vec3& x = grid.nodes[cell[i]];
-    return (grid.nodes[cell[j]] - x).cross(grid.nodes[cell[k]] - x).dot(grid.nodes[cell[l]] - x);
-  };
+  const std::array<Vec3, 8> at = corners_of(cell, grid.nodes);
+  const auto corner = [&](int i, int j, int k, int l) { return (at[j] - at[i]).cross(at[k] - at[i]).dot(at[l] - at[i]); };
   double smallest = std::min({corner(0, 1, 3, 4), corner(1, 2, 0, 5), corner(2, 3, 1, 6), corner(3, 0, 2, 7), corner(4, 7, 5, 0),
                               corner(5, 4, 6, 1), corner(6, 5, 7, 2), corner(7, 6, 4, 3)});
   for (int q = 0; q < 8; ++q) {
     Mat3 jacobian = Mat3::Zero();
     for (int i = 0; i < 8; ++i)
       for (int d = 0; d < 3; ++d) jacobian.col(d) += grid.nodes[cell[i]] * grid.reference.gradient[d][i][q];
+    if (grid.axisymmetric) jacobian(2, 2) = 1.0;
     smallest = std::min(smallest, jacobian.determinant());
   }
   return smallest;
@@ -126,44 +151,64 @@ double smallest_jacobian(const Grid& grid, const std::array<int, 8>& cell) {
 }  // namespace
 
 struct Mesher::Held {
-  Triangulation triangulation;
-  dealii::MappingQ1<3> mapping;
-  std::unique_ptr<dealii::GridTools::Cache<3>> cache;  // costly, built at the first question
   Grid grid;
+
+  virtual ~Held() = default;
+  virtual std::optional<Place> containing_cell(const Vec3& reference_position) = 0;
 };
 
-Mesher::Mesher(const Settings& settings) : held_(std::make_unique<Held>()) {
+namespace {
+
+/// Hexahedra (dim = 3), or the quadrangles of a meridian.
+template <int dim>
+struct Built final : Mesher::Held {
+  dealii::Triangulation<dim> triangulation;
+  dealii::MappingQ1<dim> mapping;
+  std::unique_ptr<dealii::GridTools::Cache<dim>> cache;  // costly, built at the first question
+
+  explicit Built(const Settings& settings);
+  void take_cells(const std::string& who, const std::vector<std::string>& names);
+  std::optional<Place> containing_cell(const Vec3& reference_position) override;
+};
+
+template <int dim>
+Built<dim>::Built(const Settings& settings) {
   const std::string who = "structure '" + settings.name + "'";
-  dealii::MultithreadInfo::set_thread_limit(1);  // OpenMP has the cores
-  Triangulation& triangulation = held_->triangulation;
-  Grid& grid = held_->grid;
   std::vector<std::string> names;
   const auto build = [&](const auto& mesh) {
     if constexpr (std::is_same_v<std::decay_t<decltype(mesh)>, GmshMesh>) {
-      create(triangulation, mesh.read ? *mesh.read : read_mesh(mesh, who));
+      create<dim>(triangulation,
+                  mesh.read ? *mesh.read : read_mesh(mesh, dim == 3 ? GmshCells::hexahedra : GmshCells::quadrangles, who));
     } else {
-      const Blocks blocks = build_blocks(mesh, settings.symmetry_axes, who);
-      create(triangulation, blocks);
+      const Blocks blocks =
+          dim == 3 ? build_blocks(mesh, settings.symmetry_axes, who) : build_meridian(mesh, settings.symmetry_axes, who);
+      create<dim>(triangulation, blocks);
       names = blocks.names;
     }
   };
   std::visit(build, settings.mesh);
-  const bool named = !std::holds_alternative<GmshMesh>(settings.mesh);
+  take_cells(who, names);
+}
 
-  const dealii::FE_Q<3> element(1);
-  const dealii::QGauss<3> rule(2);
-  take_reference_cell(element, rule, grid.reference);
+/// Cells, their volumes and their faces as plain arrays. Without names those of the faces are their ids.
+template <int dim>
+void Built<dim>::take_cells(const std::string& who, const std::vector<std::string>& names) {
+  const dealii::FE_Q<dim> element(1);
+  const dealii::QGauss<dim> rule(2);
+  grid.axisymmetric = dim == 2;
+  take_reference_cell<dim>(element, rule, grid.reference);
 
   grid.nodes.reserve(triangulation.n_vertices());
-  for (const auto& x : triangulation.get_vertices()) grid.nodes.push_back(vector(x));
+  for (const auto& x : triangulation.get_vertices()) grid.nodes.push_back(vector<dim>(x));
   grid.cells.resize(triangulation.n_active_cells());
   grid.nodal_volume.resize(grid.cells.size());
-  dealii::FEValues<3> values(held_->mapping, element, rule, dealii::update_values | dealii::update_JxW_values);
+  dealii::FEValues<dim> values(mapping, element, rule,
+                               dealii::update_values | dealii::update_JxW_values | dealii::update_quadrature_points);
   for (const auto& cell : triangulation.active_cell_iterators()) {
     const std::size_t c = cell->active_cell_index();
     Vec3 center = Vec3::Zero();
     for (unsigned i = 0; i < 8; ++i) {
-      grid.cells[c][i] = static_cast<int>(cell->vertex_index(to_dealii[i]));
+      grid.cells[c][i] = static_cast<int>(cell->vertex_index(to_dealii[i % cell_nodes<dim>]));
       center += grid.nodes[grid.cells[c][i]] / 8.0;
     }
     if (!(smallest_jacobian(grid, grid.cells[c]) > 0.0))
@@ -171,38 +216,40 @@ Mesher::Mesher(const Settings& settings) : held_(std::make_unique<Held>()) {
                                   std::to_string(center[1]) + ", " + std::to_string(center[2]) +
                                   ") m is inverted or flat; repair the mesh there");
     values.reinit(cell);
-    for (unsigned i = 0; i < 8; ++i) {
-      grid.nodal_volume[c][i] = 0.0;
-      for (unsigned q = 0; q < rule.size(); ++q) grid.nodal_volume[c][i] += values.shape_value(to_dealii[i], q) * values.JxW(q);
-    }
+    grid.nodal_volume[c].fill(0.0);
+    for (unsigned i = 0; i < cell_nodes<dim>; ++i)
+      for (unsigned q = 0; q < rule.size(); ++q) {
+        const double turn = dim == 3 ? 1.0 : 2.0 * std::numbers::pi * values.quadrature_point(q)[0];
+        grid.nodal_volume[c][i] += values.shape_value(to_dealii[i], q) * values.JxW(q) * turn;
+      }
     for (const auto& face : cell->face_iterators()) {
       if (!face->at_boundary()) continue;
       const unsigned id = face->boundary_id();
-      if (named && id == 0) continue;
-      std::array<int, 4> quad;
-      for (unsigned v = 0; v < 4; ++v) quad[v] = static_cast<int>(face->vertex_index(around_face[v]));
-      const Vec3& x0 = grid.nodes[quad[0]];
-      const Vec3 normal = (grid.nodes[quad[1]] - x0).cross(grid.nodes[quad[3]] - x0);
-      const Vec3 middle = (x0 + grid.nodes[quad[1]] + grid.nodes[quad[2]] + grid.nodes[quad[3]]) / 4.0;
-      if (normal.dot(center - middle) < 0.0) std::swap(quad[1], quad[3]);
-      grid.faces[named ? names[id - 1] : std::to_string(id)].push_back(quad);
+      if (!names.empty() && id == 0) continue;
+      std::array<int, 4> nodes;
+      for (unsigned v = 0; v < 4; ++v) nodes[v] = static_cast<int>(face->vertex_index(around_face<dim>[v]));
+      if (dim == 2 && grid.nodes[nodes[0]][0] == 0.0 && grid.nodes[nodes[1]][0] == 0.0) continue;  // the axis
+      const std::array<Vec3, 4> x = corners_of(nodes, grid.nodes);
+      const Vec3 normal = (x[1] - x[0]).cross(x[3] - x[0]);
+      const Vec3 middle = (x[0] + x[1] + x[2] + x[3]) / 4.0;
+      if (normal.dot(center - middle) < 0.0) {
+        if (dim == 2) nodes = {nodes[1], nodes[0], nodes[0], nodes[1]};
+        else std::swap(nodes[1], nodes[3]);
+      }
+      grid.faces[names.empty() ? std::to_string(id) : names[id - 1]].push_back(nodes);
     }
   }
 }
 
-Mesher::~Mesher() = default;
-Mesher::Mesher(Mesher&&) noexcept = default;
-Mesher& Mesher::operator=(Mesher&&) noexcept = default;
-
-const Grid& Mesher::grid() const { return held_->grid; }
-
-std::optional<Place> Mesher::containing_cell(const Vec3& reference_position) const {
-  if (!held_->cache) held_->cache = std::make_unique<dealii::GridTools::Cache<3>>(held_->triangulation, held_->mapping);
+template <int dim>
+std::optional<Place> Built<dim>::containing_cell(const Vec3& reference_position) {
+  if (dim == 2 && std::abs(reference_position[2]) > 0.0) return std::nullopt;
+  if (!cache) cache = std::make_unique<dealii::GridTools::Cache<dim>>(triangulation, mapping);
   try {
-    const auto [cell, unit] = dealii::GridTools::find_active_cell_around_point(*held_->cache, point(reference_position));
+    const auto [cell, unit] = dealii::GridTools::find_active_cell_around_point(*cache, point<dim>(reference_position));
     if (cell.state() != dealii::IteratorState::valid) return std::nullopt;
-    Place place{cell->active_cell_index(), {}, 0.0};
-    for (unsigned d = 0; d < 3; ++d) {
+    Place place{cell->active_cell_index(), {0.5, 0.5, 0.5}, 0.0};
+    for (unsigned d = 0; d < dim; ++d) {
       if (unit[d] < -1e-9 || unit[d] > 1.0 + 1e-9) return std::nullopt;
       place.unit[d] = std::clamp(unit[d], 0.0, 1.0);
     }
@@ -210,6 +257,23 @@ std::optional<Place> Mesher::containing_cell(const Vec3& reference_position) con
   } catch (const dealii::ExceptionBase&) {
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+Mesher::Mesher(const Settings& settings) {
+  dealii::MultithreadInfo::set_thread_limit(1);  // OpenMP has the cores
+  if (settings.axisymmetric) held_ = std::make_unique<Built<2>>(settings);
+  else held_ = std::make_unique<Built<3>>(settings);
+}
+Mesher::~Mesher() = default;
+Mesher::Mesher(Mesher&&) noexcept = default;
+Mesher& Mesher::operator=(Mesher&&) noexcept = default;
+
+const Grid& Mesher::grid() const { return held_->grid; }
+
+std::optional<Place> Mesher::containing_cell(const Vec3& reference_position) const {
+  return held_->containing_cell(reference_position);
 }
 
 }  // namespace undex::fem

@@ -13,7 +13,8 @@
 
 namespace undex::fem {
 
-/// Trilinear shape functions on the unit cube and the 2x2x2 Gauss rule, nodes in VTK hexahedron order.
+/// Trilinear shape functions on the unit cube and the 2x2x2 Gauss rule, nodes in VTK hexahedron order. Of a meridian: bilinear
+/// ones of four nodes on the unit square; the 2x2 points come twice, for two cells, and the weights of each four sum to 1.
 struct ReferenceCell {
   double gradient[3][8][8];  ///< [direction][node][quadrature point], per unit coordinate
   double value[8][8];        ///< [node][quadrature point]
@@ -21,12 +22,14 @@ struct ReferenceCell {
   double weight[8];          ///< sum 1
 };
 
-/// Hexahedra and their named boundary faces.
+/// Cells and their named boundary faces: hexahedra, or the quadrangles of a meridian in the doubled form of
+/// core/hexahedral_mesh.hpp, with positions (r, axial, 0) and volumes of rings.
 struct Grid {
+  bool axisymmetric = false;
   std::vector<Vec3> nodes;                          ///< reference positions [m]
   std::vector<std::array<int, 8>> cells;            ///< VTK hexahedron order
-  std::vector<std::array<double, 8>> nodal_volume;  ///< integral of each shape function over its cell [m^3]
-  /// Boundary quadrilaterals by name; (x1 - x0) x (x3 - x0) points into the structure.
+  std::vector<std::array<double, 8>> nodal_volume;  ///< integral of each shape function over its cell [m^3]; of a ring's four
+  /// Boundary quadrilaterals, or segments (core/surface.hpp), by name; (x1 - x0) x (x3 - x0) points into the structure.
   std::map<std::string, std::vector<std::array<int, 4>>> faces;
   ReferenceCell reference;
 };
@@ -41,6 +44,7 @@ struct Place {
 /// A mesh held by deal.II, from which the plain arrays were taken.
 class Mesher {
  public:
+  struct Held;
   /// Throws std::invalid_argument with every mistake of the mesh settings.
   explicit Mesher(const Settings& settings);
   ~Mesher();
@@ -52,14 +56,13 @@ class Mesher {
   std::optional<Place> containing_cell(const Vec3& reference_position) const;
 
  private:
-  struct Held;
   std::unique_ptr<Held> held_;
 };
 
 /// Place of the point of the mesh nearest to `reference_position`, by projection onto every cell in reach.
 Place nearest_place(const Grid& grid, const Vec3& reference_position);
 
-/// Trilinear shape functions at unit coordinates, in VTK order.
+/// Trilinear shape functions at unit coordinates, in VTK order; of a quadrangle at its third coordinate 1/2, for each node twice.
 std::array<double, 8> shape_values(const std::array<double, 3>& unit);
 
 }  // namespace undex::fem

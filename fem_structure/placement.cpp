@@ -1,4 +1,4 @@
-// The point of a hexahedral mesh nearest to a given one.
+// The point of a mesh nearest to a given one.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/hexahedral_mesh.hpp"
 #include "fem_structure/grid.hpp"
 
 namespace undex::fem {
@@ -21,11 +22,12 @@ struct Projection {
 
 /// Gauss-Newton on the unit cube: directions that press against a side of the cube are left out, one by one.
 Projection project(const Grid& grid, const std::array<int, 8>& cell, const Vec3& target) {
+  const std::array<Vec3, 8> corners = corners_of(cell, grid.nodes);
   Vec3 unit = Vec3::Constant(0.5);
   const auto residual_at = [&](const Vec3& u) {
     const auto n = shape_values({u[0], u[1], u[2]});
     Vec3 x = -target;
-    for (int i = 0; i < 8; ++i) x += n[i] * grid.nodes[cell[i]];
+    for (int i = 0; i < 8; ++i) x += n[i] * corners[i];
     return x;
   };
   Vec3 residual = residual_at(unit);
@@ -38,7 +40,7 @@ Projection project(const Grid& grid, const std::array<int, 8>& cell, const Vec3&
           if (e == d) slope *= corner[i][e] ? 1.0 : -1.0;
           else slope *= corner[i][e] ? unit[e] : 1.0 - unit[e];
         }
-        jacobian.col(d) += slope * grid.nodes[cell[i]];
+        jacobian.col(d) += slope * corners[i];
       }
     const Vec3 downhill = -jacobian.transpose() * residual;
     Mat3 normal = jacobian.transpose() * jacobian;

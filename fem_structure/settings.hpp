@@ -44,6 +44,11 @@ void describe(PressureLoad& load, Visit&& visit) {
 
 struct Settings {
   std::string name = "structure";
+  /// A body of revolution, computed in its meridian: positions and vectors are (distance from the axis, along the axis, 0), the
+  /// axis of shapes and planes and the only symmetry axis is 1. Meshes are then rectangles of the meridian: a tube's counts
+  /// through and along, a rod's radial and along; or gmsh's quadrangles (core/gmsh_file.hpp). Masses, forces and energies are
+  /// those of whole rings. Said by the scene's dimension.
+  bool axisymmetric = false;
   Mesh mesh;
   ElementKind element = ElementKind::hexahedron;
   int points_through = 3;  ///< of shells: Gauss points through the thickness of a cell, 2 to 10

@@ -11,29 +11,9 @@
 namespace undex::fem {
 namespace {
 
-constexpr int most_batches = ShellElements::most_layers / 2;
 constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
 constexpr int place[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
-
-/// Bilinear functions of the mid-surface at the 2x2 points in the plane, for both layers of a batch; xi, eta in [-1, 1].
-struct PlaneRule {
-  materials::EightPoints xi, eta, value[4], along_xi[4], along_eta[4];
-
-  PlaneRule() {
-    for (int q = 0; q < 8; ++q) {
-      xi[q] = (q & 1 ? 1.0 : -1.0) / std::numbers::sqrt3;
-      eta[q] = (q & 2 ? 1.0 : -1.0) / std::numbers::sqrt3;
-      for (int a = 0; a < 4; ++a) {
-        const double sx = corner[a][0] ? 1.0 : -1.0, sy = corner[a][1] ? 1.0 : -1.0;
-        value[a][q] = 0.25 * (1 + sx * xi[q]) * (1 + sy * eta[q]);
-        along_xi[a][q] = 0.25 * sx * (1 + sy * eta[q]);
-        along_eta[a][q] = 0.25 * sy * (1 + sx * xi[q]);
-      }
-    }
-  }
-};
-const PlaneRule plane;
 
 /// Gauss points and weights on [-1, 1], by Newton's steps on the Legendre polynomial.
 void gauss(int n, std::vector<double>& point, std::vector<double>& weight) {
@@ -70,8 +50,9 @@ double dot(const double (&a)[3], const double (&b)[3]) { return a[0] * b[0] + a[
 
 }  // namespace
 
-int thickness_direction(const Mesh& mesh, const std::string& who) {
+int thickness_direction(const Mesh& mesh, bool axisymmetric, const std::string& who) {
   if (std::holds_alternative<TubeMesh>(mesh)) return 0;  // the blocks of a tube count the cells through its wall first
+  if (axisymmetric && std::holds_alternative<RodMesh>(mesh)) return 1;
   if (const auto* plate = std::get_if<PlateMesh>(&mesh)) {
     int thinnest = 0;
     for (int d = 1; d < 3; ++d)
@@ -83,13 +64,45 @@ int thickness_direction(const Mesh& mesh, const std::string& who) {
                               "plate; use hexahedra for a rod or a gmsh mesh");
 }
 
+/// Shape functions of the mid-surface at the points of a layer, for all layers of a batch; xi, eta in [-1, 1].
+template <bool axisymmetric>
+struct SolidShells<axisymmetric>::Rule {
+  Lanes xi, eta, value[corners], along_xi[corners], along_eta[corners];
+
+  Rule() {
+    for (int q = 0; q < 8; ++q) {
+      xi[q] = (q & 1 ? 1.0 : -1.0) / std::numbers::sqrt3;
+      eta[q] = (q & 2 ? 1.0 : -1.0) / std::numbers::sqrt3;
+      for (int a = 0; a < corners; ++a) {
+        const double sx = corner[a][0] ? 1.0 : -1.0, sy = corner[a][1] ? 1.0 : -1.0;
+        if constexpr (axisymmetric) {
+          value[a][q] = 0.5 * (1 + sx * xi[q]);
+          along_xi[a][q] = 0.5 * sx;
+          along_eta[a][q] = 0.0;
+        } else {
+          value[a][q] = 0.25 * (1 + sx * xi[q]) * (1 + sy * eta[q]);
+          along_xi[a][q] = 0.25 * sx * (1 + sy * eta[q]);
+          along_eta[a][q] = 0.25 * sy * (1 + sx * xi[q]);
+        }
+      }
+    }
+  }
+  static const Rule& get() {
+    static const Rule rule;
+    return rule;
+  }
+};
+
+/// Corners between which the mid-surface's edges run: at eta = -1, +1 (along xi), then xi = -1, +1 (along eta). A ring's is one.
+constexpr int edge_begin[4] = {0, 3, 0, 1}, edge_end[4] = {1, 2, 3, 2};
+
 /// A vector field on a cell (positions or displacements) as mid-surface m and director d: x = m + zeta d, zeta in [-1, 1].
 /// At the points in the plane: derivatives of m and d; at the corners and the middles of the edges: the samples.
-struct ShellElements::Surface {
+template <bool axisymmetric>
+struct SolidShells<axisymmetric>::Surface {
   Lanes m_xi[3], m_eta[3], d[3], d_xi[3], d_eta[3];
-  double corner_d[4][3];
-  /// Edges at eta = -1, +1 (derivative along xi), then xi = -1, +1 (along eta).
-  double edge_m[4][3], edge_d[4][3];
+  double corner_d[corners][3];
+  double edge_m[edges][3], edge_d[edges][3];  ///< of m the derivative along the edge
 
   /// The field halfway of a step that ended at x and displaced by u.
   Surface(const Surface& x, const Surface& u) {
@@ -101,71 +114,84 @@ struct ShellElements::Surface {
         d_xi[i][q] = x.d_xi[i][q] - 0.5 * u.d_xi[i][q];
         d_eta[i][q] = x.d_eta[i][q] - 0.5 * u.d_eta[i][q];
       }
-    for (int a = 0; a < 4; ++a)
-      for (int i = 0; i < 3; ++i) {
-        corner_d[a][i] = x.corner_d[a][i] - 0.5 * u.corner_d[a][i];
-        edge_m[a][i] = x.edge_m[a][i] - 0.5 * u.edge_m[a][i];
-        edge_d[a][i] = x.edge_d[a][i] - 0.5 * u.edge_d[a][i];
-      }
-  }
-  explicit Surface(const CellVectors& v) {
-    constexpr int begin[4] = {0, 3, 0, 1}, end[4] = {1, 2, 3, 2};
     for (int i = 0; i < 3; ++i) {
-      double middle[4];
-      for (int a = 0; a < 4; ++a) {
-        middle[a] = 0.5 * (v[i][a + 4] + v[i][a]);
-        corner_d[a][i] = 0.5 * (v[i][a + 4] - v[i][a]);
-      }
-      for (int edge = 0; edge < 4; ++edge) {
-        edge_m[edge][i] = 0.5 * (middle[end[edge]] - middle[begin[edge]]);
-        edge_d[edge][i] = 0.5 * (corner_d[end[edge]][i] + corner_d[begin[edge]][i]);
-      }
-      for (int q = 0; q < 8; ++q) m_xi[i][q] = m_eta[i][q] = d[i][q] = d_xi[i][q] = d_eta[i][q] = 0.0;
-      for (int a = 0; a < 4; ++a)
-        for (int q = 0; q < 4; ++q) {
-          m_xi[i][q] += middle[a] * plane.along_xi[a][q];
-          m_eta[i][q] += middle[a] * plane.along_eta[a][q];
-          d[i][q] += corner_d[a][i] * plane.value[a][q];
-          d_xi[i][q] += corner_d[a][i] * plane.along_xi[a][q];
-          d_eta[i][q] += corner_d[a][i] * plane.along_eta[a][q];
-        }
-      for (int q = 0; q < 4; ++q) {  // the other layer of a batch is alike
-        m_xi[i][q + 4] = m_xi[i][q];
-        m_eta[i][q + 4] = m_eta[i][q];
-        d[i][q + 4] = d[i][q];
-        d_xi[i][q + 4] = d_xi[i][q];
-        d_eta[i][q + 4] = d_eta[i][q];
+      for (int a = 0; a < corners; ++a) corner_d[a][i] = x.corner_d[a][i] - 0.5 * u.corner_d[a][i];
+      for (int edge = 0; edge < edges; ++edge) {
+        edge_m[edge][i] = x.edge_m[edge][i] - 0.5 * u.edge_m[edge][i];
+        edge_d[edge][i] = x.edge_d[edge][i] - 0.5 * u.edge_d[edge][i];
       }
     }
+  }
+  explicit Surface(const CellVectors& v) {
+    const Rule& rule = Rule::get();
+    double middle[3][corners];
+    for (int i = 0; i < 3; ++i) {
+      for (int a = 0; a < corners; ++a) {
+        middle[i][a] = 0.5 * (v[i][a + corners] + v[i][a]);
+        corner_d[a][i] = 0.5 * (v[i][a + corners] - v[i][a]);
+      }
+      for (int edge = 0; edge < edges; ++edge) {
+        edge_m[edge][i] = 0.5 * (middle[i][edge_end[edge]] - middle[i][edge_begin[edge]]);
+        edge_d[edge][i] = 0.5 * (corner_d[edge_end[edge]][i] + corner_d[edge_begin[edge]][i]);
+      }
+      for (int q = 0; q < 8; ++q) m_xi[i][q] = m_eta[i][q] = d[i][q] = d_xi[i][q] = d_eta[i][q] = 0.0;
+      for (int a = 0; a < corners; ++a)
+        for (int q = 0; q < per_layer; ++q) {
+          m_xi[i][q] += middle[i][a] * rule.along_xi[a][q];
+          m_eta[i][q] += middle[i][a] * rule.along_eta[a][q];
+          d[i][q] += corner_d[a][i] * rule.value[a][q];
+          d_xi[i][q] += corner_d[a][i] * rule.along_xi[a][q];
+          d_eta[i][q] += corner_d[a][i] * rule.along_eta[a][q];
+        }
+    }
+    if constexpr (axisymmetric)  // along the angle
+      for (int a = 0; a < corners; ++a)
+        for (int q = 0; q < per_layer; ++q) {
+          m_eta[2][q] += middle[0][a] * rule.value[a][q];
+          d_eta[2][q] += corner_d[a][0] * rule.value[a][q];
+        }
+    for (int i = 0; i < 3; ++i)
+      for (int q = per_layer; q < 8; ++q) {  // the other layers of a batch are alike
+        m_xi[i][q] = m_xi[i][q - per_layer];
+        m_eta[i][q] = m_eta[i][q - per_layer];
+        d[i][q] = d[i][q - per_layer];
+        d_xi[i][q] = d_xi[i][q - per_layer];
+        d_eta[i][q] = d_eta[i][q - per_layer];
+      }
   }
 };
 
 /// At all points: zeta, the covariant vectors of the layer, contravariant base (rows), weights; and for the enhanced strain
 /// its shape, zeta j(0)/j(zeta), and the unit normal of the mid-surface.
-struct ShellElements::Geometry {
+template <bool axisymmetric>
+struct SolidShells<axisymmetric>::Geometry {
   Lanes zeta[most_batches], along_xi[most_batches][3], along_eta[most_batches][3], inverse[most_batches][3][3];
   Lanes weight[most_batches], shape[most_batches];
   Lanes normal[3];
 };
 
-ShellElements::ShellElements(const Grid& grid, const materials::Solid& material, double linear_viscosity,
-                             double quadratic_viscosity, int through, int layers)
+template <bool axisymmetric>
+SolidShells<axisymmetric>::SolidShells(const Grid& grid, const materials::Solid& material, double linear_viscosity,
+                                       double quadratic_viscosity, int through, int layers)
     : ElementSet(grid, material, linear_viscosity, quadratic_viscosity),
       layers_(layers),
-      batches_((layers + 1) / 2),
+      batches_((layers + layers_at_once - 1) / layers_at_once),
       through_(through),
-      layer_zeta_(2 * batches_, 0.0),
-      layer_weight_(2 * batches_, 0.0) {
+      layer_zeta_(layers_at_once * batches_, 0.0),
+      layer_weight_(layers_at_once * batches_, 0.0) {
   if (layers < 2 || layers > most_layers)
     throw std::invalid_argument("points_through = " + std::to_string(layers) + "; give 2 to " + std::to_string(most_layers));
   gauss(layers, layer_zeta_, layer_weight_);
-  for (int local = 0; local < 8; ++local)
-    for (int node = 0; node < 8; ++node)
-      if (corner[node][(through + 1) % 3] == corner[local][0] && corner[node][(through + 2) % 3] == corner[local][1] &&
-          corner[node][through] == corner[local][2])
-        order_[local] = node;
+  for (int local = 0; local < 2 * corners; ++local)
+    for (int node = 0; node < 2 * corners; ++node) {
+      const int high = local / corners, *along = corner[local % corners];
+      bool same = corner[node][through] == high;
+      if constexpr (axisymmetric) same &= (through == 0 ? corner[node][1] : 1 - corner[node][0]) == along[0];  // right-handed
+      else same &= corner[node][(through + 1) % 3] == along[0] && corner[node][(through + 2) % 3] == along[1];
+      if (same) order_[local] = node;
+    }
 
-  const std::size_t n = cells_.size(), points = 8 * batches_ * n, all_layers = 2 * batches_ * n;
+  const std::size_t n = cells_.size(), points = 8 * batches_ * n, all_layers = layers_at_once * batches_ * n;
   for (auto& field : deviator_) field.assign(points, 0.0);
   plastic_strain_.assign(points, 0.0);
   temperature_.assign(points, material.T_room);
@@ -190,17 +216,20 @@ ShellElements::ShellElements(const Grid& grid, const materials::Solid& material,
   find_first_steps(grid);
 }
 
-void ShellElements::turn_in(const CellVectors& cell, CellVectors& local) const {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::turn_in(const CellVectors& cell, CellVectors& local) const {
   for (int i = 0; i < 3; ++i)
-    for (int a = 0; a < 8; ++a) local[i][a] = cell[i][order_[a]];
+    for (int a = 0; a < 2 * corners; ++a) local[i][a] = cell[i][order_[a]];
 }
 
-void ShellElements::turn_out(const CellVectors& local, CellVectors& cell) const {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::turn_out(const CellVectors& local, CellVectors& cell) const {
   for (int i = 0; i < 3; ++i)
-    for (int a = 0; a < 8; ++a) cell[i][order_[a]] = local[i][a];
+    for (int a = 0; a < 2 * corners; ++a) cell[i][order_[a]] = local[i][a];
 }
 
-bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
+template <bool axisymmetric>
+bool SolidShells<axisymmetric>::find_geometry(const Surface& x, Geometry& geometry) const {
   Lanes middle;  // determinant on the mid-surface
   cross(x.m_xi, x.m_eta, geometry.normal);
   for (int q = 0; q < 8; ++q) {
@@ -213,6 +242,7 @@ bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
     n1 *= over;
     n2 *= over;
   }
+  constexpr double turn = axisymmetric ? 2.0 * std::numbers::pi : 1.0;  // per unit of eta
   double least = middle[0], most = 0.0;
   for (int b = 0; b < batches_; ++b) {
     auto& inverse = geometry.inverse[b];
@@ -220,8 +250,8 @@ bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
     Lanes(&g2)[3] = geometry.along_eta[b];
     Lanes layer_weight, determinant;
     for (int q = 0; q < 8; ++q) {
-      geometry.zeta[b][q] = layer_zeta_[2 * b + q / 4];
-      layer_weight[q] = layer_weight_[2 * b + q / 4];
+      geometry.zeta[b][q] = layer_zeta_[layers_at_once * b + q / per_layer];
+      layer_weight[q] = turn * layer_weight_[layers_at_once * b + q / per_layer];
     }
     for (int i = 0; i < 3; ++i)
       for (int q = 0; q < 8; ++q) {
@@ -247,18 +277,24 @@ bool ShellElements::find_geometry(const Surface& x, Geometry& geometry) const {
   return least > 0.0 && std::isfinite(most);
 }
 
-void ShellElements::find_strain(const Surface& x, const Surface& u, const Geometry& geometry, Lanes (*strain)[6]) const {
-  double thickness[4], shear[4];
-  for (int a = 0; a < 4; ++a) {
-    thickness[a] = dot(x.corner_d[a], u.corner_d[a]);
-    shear[a] = 0.5 * (dot(x.edge_m[a], u.edge_d[a]) + dot(x.edge_d[a], u.edge_m[a]));
-  }
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::find_strain(const Surface& x, const Surface& u, const Geometry& geometry,
+                                            Lanes (*strain)[6]) const {
+  const Rule& rule = Rule::get();
+  double thickness[corners], shear[edges];
+  for (int a = 0; a < corners; ++a) thickness[a] = dot(x.corner_d[a], u.corner_d[a]);
+  for (int a = 0; a < edges; ++a) shear[a] = 0.5 * (dot(x.edge_m[a], u.edge_d[a]) + dot(x.edge_d[a], u.edge_m[a]));
   Lanes e33, e13, e23;  // constant through the thickness
   for (int q = 0; q < 8; ++q) {
     e33[q] = 0.0;
-    for (int a = 0; a < 4; ++a) e33[q] += thickness[a] * plane.value[a][q];
-    e13[q] = 0.5 * ((1 - plane.eta[q]) * shear[0] + (1 + plane.eta[q]) * shear[1]);
-    e23[q] = 0.5 * ((1 - plane.xi[q]) * shear[2] + (1 + plane.xi[q]) * shear[3]);
+    for (int a = 0; a < corners; ++a) e33[q] += thickness[a] * rule.value[a][q];
+    if constexpr (axisymmetric) {
+      e13[q] = shear[0];
+      e23[q] = 0.0;
+    } else {
+      e13[q] = 0.5 * ((1 - rule.eta[q]) * shear[0] + (1 + rule.eta[q]) * shear[1]);
+      e23[q] = 0.5 * ((1 - rule.xi[q]) * shear[2] + (1 + rule.xi[q]) * shear[3]);
+    }
   }
   for (int b = 0; b < batches_; ++b) {
     const auto& inverse = geometry.inverse[b];
@@ -288,13 +324,14 @@ void ShellElements::find_strain(const Surface& x, const Surface& u, const Geomet
   }
 }
 
-double ShellElements::enhance(const Geometry& geometry, Moduli moduli, double residual, Lanes (*strain)[6]) const {
+template <bool axisymmetric>
+double SolidShells<axisymmetric>::enhance(const Geometry& geometry, Moduli moduli, double residual, Lanes (*strain)[6]) const {
   const Lanes(&n)[3] = geometry.normal;
   double own = 0.0;
   for (int b = 0; b < batches_; ++b)
-    for (int layer = 0; layer < 2; ++layer) {
+    for (int layer = 0; layer < layers_at_once; ++layer) {
       double volume = 0.0, opened = 0.0, lever = 0.0;
-      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+      for (int q = per_layer * layer; q < per_layer * (layer + 1); ++q) {
         const double trace = strain[b][0][q] + strain[b][1][q] + strain[b][2][q];
         const double along = n[0][q] * (n[0][q] * strain[b][0][q] + 2 * n[1][q] * strain[b][5][q]) +
                              n[1][q] * (n[1][q] * strain[b][1][q] + 2 * n[2][q] * strain[b][3][q]) +
@@ -324,7 +361,8 @@ double ShellElements::enhance(const Geometry& geometry, Moduli moduli, double re
   return amplitude;
 }
 
-double ShellElements::residual_of(const Geometry& geometry, const Lanes (*stress)[6]) const {
+template <bool axisymmetric>
+double SolidShells<axisymmetric>::residual_of(const Geometry& geometry, const Lanes (*stress)[6]) const {
   const Lanes(&n)[3] = geometry.normal;
   double residual = 0.0;
   for (int b = 0; b < batches_; ++b)
@@ -336,7 +374,9 @@ double ShellElements::residual_of(const Geometry& geometry, const Lanes (*stress
   return residual;
 }
 
-void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lanes (*stress)[6], CellVectors& force) const {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::spread(const Surface& x, const Geometry& geometry, const Lanes (*stress)[6],
+                                       CellVectors& force) const {
   Lanes on_m_xi[3] = {}, on_m_eta[3] = {}, on_d_xi[3] = {}, on_d_eta[3] = {};
   Lanes s13 = {}, s23 = {}, s33 = {};
   for (int b = 0; b < batches_; ++b) {
@@ -371,52 +411,65 @@ void ShellElements::spread(const Surface& x, const Geometry& geometry, const Lan
         on_d_eta[i][q] += zeta * along_eta;
       }
   }
-  double thickness[4] = {}, shear[4] = {};
+  const Rule& rule = Rule::get();
+  double thickness[corners] = {}, shear[edges] = {};
   for (int q = 0; q < 8; ++q) {
-    for (int a = 0; a < 4; ++a) thickness[a] += s33[q] * plane.value[a][q];
-    shear[0] += 0.5 * (1 - plane.eta[q]) * s13[q];
-    shear[1] += 0.5 * (1 + plane.eta[q]) * s13[q];
-    shear[2] += 0.5 * (1 - plane.xi[q]) * s23[q];
-    shear[3] += 0.5 * (1 + plane.xi[q]) * s23[q];
+    for (int a = 0; a < corners; ++a) thickness[a] += s33[q] * rule.value[a][q];
+    if constexpr (axisymmetric) {
+      shear[0] += s13[q];
+    } else {
+      shear[0] += 0.5 * (1 - rule.eta[q]) * s13[q];
+      shear[1] += 0.5 * (1 + rule.eta[q]) * s13[q];
+      shear[2] += 0.5 * (1 - rule.xi[q]) * s23[q];
+      shear[3] += 0.5 * (1 + rule.xi[q]) * s23[q];
+    }
   }
-  constexpr int begin[4] = {0, 3, 0, 1}, end[4] = {1, 2, 3, 2};
   for (int i = 0; i < 3; ++i) {
-    double on_middle[4], on_director[4];
-    for (int a = 0; a < 4; ++a) {
+    double on_middle[corners], on_director[corners];
+    for (int a = 0; a < corners; ++a) {
       Lanes middle, director;
       for (int q = 0; q < 8; ++q) {
-        middle[q] = on_m_xi[i][q] * plane.along_xi[a][q] + on_m_eta[i][q] * plane.along_eta[a][q];
-        director[q] = on_d_xi[i][q] * plane.along_xi[a][q] + on_d_eta[i][q] * plane.along_eta[a][q];
+        middle[q] = on_m_xi[i][q] * rule.along_xi[a][q] + on_m_eta[i][q] * rule.along_eta[a][q];
+        director[q] = on_d_xi[i][q] * rule.along_xi[a][q] + on_d_eta[i][q] * rule.along_eta[a][q];
       }
+      if (axisymmetric && i == 0)  // the hoop's part
+        for (int q = 0; q < 8; ++q) {
+          middle[q] += on_m_eta[2][q] * rule.value[a][q];
+          director[q] += on_d_eta[2][q] * rule.value[a][q];
+        }
       const auto total = [](const Lanes& v) { return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7])); };
       on_middle[a] = total(middle);
       on_director[a] = total(director) + thickness[a] * x.corner_d[a][i];
     }
     // Power of an edge's sample: 2 S E = S (m' . d_u + d . m'_u).
-    for (int edge = 0; edge < 4; ++edge) {
+    for (int edge = 0; edge < edges; ++edge) {
       const double turned = 0.5 * shear[edge] * x.edge_m[edge][i], sheared = 0.5 * shear[edge] * x.edge_d[edge][i];
-      on_director[begin[edge]] += turned;
-      on_director[end[edge]] += turned;
-      on_middle[begin[edge]] -= sheared;
-      on_middle[end[edge]] += sheared;
+      on_director[edge_begin[edge]] += turned;
+      on_director[edge_end[edge]] += turned;
+      on_middle[edge_begin[edge]] -= sheared;
+      on_middle[edge_end[edge]] += sheared;
     }
-    for (int a = 0; a < 4; ++a) {
+    for (int a = 0; a < corners; ++a) {
       force[i][a] = 0.5 * (on_middle[a] - on_director[a]);
-      force[i][a + 4] = 0.5 * (on_middle[a] + on_director[a]);
+      force[i][a + corners] = 0.5 * (on_middle[a] + on_director[a]);
     }
   }
 }
 
 /// What a step gave to the layers of a cell, and to it as a whole: works in [J].
-struct ShellElements::Work {
-  double deviatoric[2 * most_batches] = {};                             // of each layer
-  double volume[2 * most_batches] = {}, opened[2 * most_batches] = {};  // halfway, and its gain [m^3]
-  double intact[2 * most_batches];                                      // share of the points that have not failed
+template <bool axisymmetric>
+struct SolidShells<axisymmetric>::Work {
+  static constexpr int all_layers = layers_at_once * most_batches;
+  double deviatoric[all_layers] = {};                       // of each layer
+  double volume[all_layers] = {}, opened[all_layers] = {};  // halfway, and its gain [m^3]
+  double intact[all_layers];                                // share of the points that have not failed
   double plastic = 0.0, most_strain = 0.0;
-  Work() { std::fill_n(intact, 2 * most_batches, 1.0); }
+  Work() { std::fill_n(intact, all_layers, 1.0); }
 };
 
-bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements, double dt) {
+template <bool axisymmetric>
+bool SolidShells<axisymmetric>::advance_cell(std::size_t c, std::span<const Vec3> positions, std::span<const Vec3> displacements,
+                                             double dt) {
   CellVectors x_cell, u_cell, x, u;
   collect(positions, cells_[c], x_cell);
   turn_in(x_cell, x);
@@ -444,8 +497,9 @@ bool ShellElements::advance_cell(std::size_t c, std::span<const Vec3> positions,
 }
 
 /// The strain of a batch with the spin of the displacement itself. An empty layer has none.
-void ShellElements::find_gradient(int b, const Surface& change, const Geometry& geometry, const Lanes (&strain)[6],
-                                  Lanes (&gradient)[3][3]) const {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::find_gradient(int b, const Surface& change, const Geometry& geometry, const Lanes (&strain)[6],
+                                              Lanes (&gradient)[3][3]) const {
   const auto& inverse = geometry.inverse[b];
   Lanes slope[3][3];
   for (int i = 0; i < 3; ++i)
@@ -455,7 +509,7 @@ void ShellElements::find_gradient(int b, const Surface& change, const Geometry& 
       for (int j = 0; j < 3; ++j)
         slope[i][j][q] = u1 * inverse[0][j][q] + u2 * inverse[1][j][q] + change.d[i][q] * inverse[2][j][q];
     }
-  const int filled = std::min(8, 4 * (layers_ - 2 * b));
+  const int filled = std::min(8, per_layer * (layers_ - layers_at_once * b));
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       for (int q = 0; q < 8; ++q) gradient[i][j][q] = strain[component[i][j]][q] + 0.5 * (slope[i][j][q] - slope[j][i][q]);
@@ -464,16 +518,18 @@ void ShellElements::find_gradient(int b, const Surface& change, const Geometry& 
 }
 
 /// Stress deviators of a batch of points.
-void ShellElements::advance_points(std::size_t c, int b, const Surface& change, const Geometry& geometry, const Geometry& end,
-                                   const Lanes (&strain)[6], double dt, Work& work, Lanes (&stress)[6]) {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::advance_points(std::size_t c, int b, const Surface& change, const Geometry& geometry,
+                                               const Geometry& end, const Lanes (&strain)[6], double dt, Work& work,
+                                               Lanes (&stress)[6]) {
   Lanes gradient[3][3], specific_volume, start_pressure;
   find_gradient(b, change, geometry, strain, gradient);
   materials::SolidPoints points;
   materials::SolidStep done;
   const std::size_t first = at(c, 8 * b);
   for (int q = 0; q < 8; ++q) {
-    const int layer = 2 * b + q / 4;
-    const std::size_t k = 2 * batches_ * c + layer;
+    const int layer = layers_at_once * b + q / per_layer;
+    const std::size_t k = layer_at(c, layer);
     specific_volume[q] = dilatation_[k] / material_.rho0;
     start_pressure[q] = pressure_[k];
     work.volume[layer] += geometry.weight[b][q];
@@ -486,12 +542,14 @@ void ShellElements::advance_points(std::size_t c, int b, const Surface& change, 
   materials::advance_deviator(material_, gradient, specific_volume, start_pressure, dt, points, done);
   if (!damage_.empty()) {
     std::copy_n(points.damage, 8, &damage_[first]);
-    for (int q = 0; q < 8; ++q) work.intact[2 * b + q / 4] -= 0.25 * (points.damage[q] >= materials::failed);
+    for (int q = 0; q < 8; ++q)
+      work.intact[layers_at_once * b + q / per_layer] -= 1.0 / per_layer * (points.damage[q] >= materials::failed);
   }
   for (int q = 0; q < 8; ++q) {
     double& weight = weight_[first + q];
     work.most_strain = std::max(work.most_strain, done.strain_norm[q]);
-    work.deviatoric[2 * b + q / 4] += 0.5 * (weight * done.old_work[q] + end.weight[b][q] * done.new_work[q]);
+    work.deviatoric[layers_at_once * b + q / per_layer] +=
+        0.5 * (weight * done.old_work[q] + end.weight[b][q] * done.new_work[q]);
     work.plastic += 0.5 * (weight + end.weight[b][q]) * done.plastic_work[q];
     for (int k = 0; k < 6; ++k) stress[k][q] = deviator_[k][first + q] = points.deviator[k][q];
     plastic_strain_[first + q] = points.plastic_strain[q];
@@ -502,8 +560,9 @@ void ShellElements::advance_points(std::size_t c, int b, const Surface& change, 
 
 /// Pressures of the layers, the cell's energies and its next stable step. False where a layer has swollen or shrunk by its own
 /// volume.
-bool ShellElements::advance_layers(std::size_t c, double dt, double amplitude, const Work& work, const Geometry& end,
-                                   const CellVectors& x, Lanes (*stress)[6]) {
+template <bool axisymmetric>
+bool SolidShells<axisymmetric>::advance_layers(std::size_t c, double dt, double amplitude, const Work& work, const Geometry& end,
+                                               const CellVectors& x, Lanes (*stress)[6]) {
   // Bulk viscosity: of the whole cell, so that bending is not damped.
   double volume = 0.0, opened = 0.0;
   for (int layer = 0; layer < layers_; ++layer) {
@@ -518,9 +577,10 @@ bool ShellElements::advance_layers(std::size_t c, double dt, double amplitude, c
   for (int layer = 0; layer < layers_; ++layer) {
     const double viscous = 0.5 * (old_viscous + viscous_pressure_[c]);
     if (!advance_pressure(c, layer, viscous, work, stored, bulk)) return false;
-    const double pressure = pressure_[2 * batches_ * c + layer];
+    const double pressure = pressure_[layer_at(c, layer)];
+    const int first = per_layer * (layer % layers_at_once);
     for (int i = 0; i < 3; ++i)
-      for (int q = 4 * (layer % 2); q < 4 * (layer % 2) + 4; ++q) stress[layer / 2][i][q] -= pressure;
+      for (int q = first; q < first + per_layer; ++q) stress[layer / layers_at_once][i][q] -= pressure;
   }
   // What the lag of the enhanced strain did is not the nodes' work.
   const double old_residual = residual_[c];
@@ -536,8 +596,10 @@ bool ShellElements::advance_layers(std::size_t c, double dt, double amplitude, c
 
 /// Pressure of a layer from its mean dilatation, with `viscous` the mean viscous pressure [Pa]; adds to what the cell has stored
 /// [J] and to its bulk modulus [Pa].
-bool ShellElements::advance_pressure(std::size_t c, int layer, double viscous, const Work& work, double& stored, double& bulk) {
-  const std::size_t k = 2 * batches_ * c + layer;
+template <bool axisymmetric>
+bool SolidShells<axisymmetric>::advance_pressure(std::size_t c, int layer, double viscous, const Work& work, double& stored,
+                                                 double& bulk) {
+  const std::size_t k = layer_at(c, layer);
   const double step = work.opened[layer] / work.volume[layer], old_dilatation = dilatation_[k], old_pressure = pressure_[k];
   if (!(std::abs(step) < 1.0)) return false;
   dilatation_[k] *= (1.0 + 0.5 * step) / (1.0 - 0.5 * step);
@@ -556,7 +618,7 @@ bool ShellElements::advance_pressure(std::size_t c, int layer, double viscous, c
                                             guess);
   const bool spalled = materials::spalls(material_, state.pressure);
   if (spalled) {
-    std::fill_n(&damage_[at(c, 4 * layer)], 4, materials::failed);
+    std::fill_n(&damage_[at(c, per_layer * layer)], per_layer, materials::failed);
     pressure = 0.0;
   }
   pressure_[k] = pressure;
@@ -569,15 +631,17 @@ bool ShellElements::advance_pressure(std::size_t c, int layer, double viscous, c
                                      .pressure_work = pressure_work / rho0,
                                      .dissipated = -viscous * swelling / rho0,
                                      .parted = materials::is_parted(material_, std::min(old_pressure, pressure), broken)});
-  for (std::size_t q = at(c, 4 * layer); q < at(c, 4 * layer) + 4; ++q) temperature_[q] = warming(temperature_[q]);
+  for (std::size_t q = at(c, per_layer * layer); q < at(c, per_layer * (layer + 1)); ++q)
+    temperature_[q] = warming(temperature_[q]);
   energy_[k] = other + pressure_work;
   stored += work.deviatoric[layer] + reference_volume * pressure_work;
   bulk += 0.5 * layer_weight_[layer] * density * state.bulk_sound * state.bulk_sound;
   return true;
 }
 
-void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVectors& u_cell, Moduli moduli,
-                                      CellVectors& force) const {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::linear_cell_force(const CellVectors& x_cell, const CellVectors& u_cell, Moduli moduli,
+                                                  CellVectors& force) const {
   CellVectors x, u;
   turn_in(x_cell, x);
   turn_in(u_cell, u);
@@ -588,14 +652,14 @@ void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVecto
   find_strain(surface, change, geometry, stress);
   enhance(geometry, moduli, 0.0, stress);
   for (int b = 0; b < batches_; ++b)
-    for (int layer = 0; layer < 2; ++layer) {
+    for (int layer = 0; layer < layers_at_once; ++layer) {
       double volume = 0.0, opened = 0.0;
-      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+      for (int q = per_layer * layer; q < per_layer * (layer + 1); ++q) {
         volume += geometry.weight[b][q];
         opened += geometry.weight[b][q] * (stress[b][0][q] + stress[b][1][q] + stress[b][2][q]);
       }
       const double tension = volume > 0.0 ? moduli.bulk * opened / volume : 0.0;
-      for (int q = 4 * layer; q < 4 * layer + 4; ++q) {
+      for (int q = per_layer * layer; q < per_layer * (layer + 1); ++q) {
         const double mean = (stress[b][0][q] + stress[b][1][q] + stress[b][2][q]) / 3.0;
         for (int k = 0; k < 3; ++k) stress[b][k][q] = moduli.twice_shear * (stress[b][k][q] - mean) + tension;
         for (int k = 3; k < 6; ++k) stress[b][k][q] *= moduli.twice_shear;
@@ -606,42 +670,56 @@ void ShellElements::linear_cell_force(const CellVectors& x_cell, const CellVecto
   turn_out(local, force);
 }
 
-ElementSet::Moduli ShellElements::moduli(std::size_t c) const { return {bulk_[c], 2.0 * material_.shear_modulus}; }
+template <bool axisymmetric>
+ElementSet::Moduli SolidShells<axisymmetric>::moduli(std::size_t c) const {
+  return {bulk_[c], 2.0 * material_.shear_modulus};
+}
 
-std::vector<double> ShellElements::shares_at(const std::array<double, 3>& unit) const {
+template <bool axisymmetric>
+std::vector<double> SolidShells<axisymmetric>::shares_at(const std::array<double, 3>& unit) const {
   const auto side = [](double coordinate) {  // share of the high one of the two Gauss points
     return std::clamp(0.5 + 0.5 * std::numbers::sqrt3 * (2.0 * coordinate - 1.0), 0.0, 1.0);
   };
-  const double xi = side(unit[(through_ + 1) % 3]), eta = side(unit[(through_ + 2) % 3]), zeta = 2.0 * unit[through_] - 1.0;
-  std::vector<double> shares(4 * layers_, 0.0);
+  const double zeta = 2.0 * unit[through_] - 1.0;
+  double xi, eta = 0.0;
+  if constexpr (axisymmetric) {
+    xi = side(through_ == 0 ? unit[1] : 1.0 - unit[0]);
+  } else {
+    xi = side(unit[(through_ + 1) % 3]);
+    eta = side(unit[(through_ + 2) % 3]);
+  }
+  std::vector<double> shares(per_layer * layers_, 0.0);
   int low = 0;
   while (low + 2 < layers_ && zeta > layer_zeta_[low + 1]) ++low;
   const double t = std::clamp((zeta - layer_zeta_[low]) / (layer_zeta_[low + 1] - layer_zeta_[low]), 0.0, 1.0);
-  for (int p = 0; p < 4; ++p) {
+  for (int p = 0; p < per_layer; ++p) {
     const double in_plane = (p & 1 ? xi : 1.0 - xi) * (p & 2 ? eta : 1.0 - eta);
-    shares[4 * low + p] = in_plane * (1.0 - t);
-    shares[4 * low + 4 + p] = in_plane * t;
+    shares[per_layer * low + p] = in_plane * (1.0 - t);
+    shares[per_layer * (low + 1) + p] = in_plane * t;
   }
   return shares;
 }
 
-Mat3 ShellElements::stress(std::size_t cell, int q) const {
+template <bool axisymmetric>
+Mat3 SolidShells<axisymmetric>::stress(std::size_t cell, int q) const {
   const std::size_t k = at(cell, q);
   const auto& s = deviator_;
   Mat3 full;
   full << s[0][k], s[5][k], s[4][k],  //
       s[5][k], s[1][k], s[3][k],      //
       s[4][k], s[3][k], s[2][k];
-  return full - pressure_[2 * batches_ * cell + q / 4] * Mat3::Identity();
+  return full - pressure_[layer_at(cell, q / per_layer)] * Mat3::Identity();
 }
 
-double ShellElements::pressure(std::size_t cell) const {
+template <bool axisymmetric>
+double SolidShells<axisymmetric>::pressure(std::size_t cell) const {
   double mean = 0.0;
-  for (int layer = 0; layer < layers_; ++layer) mean += 0.5 * layer_weight_[layer] * pressure_[2 * batches_ * cell + layer];
+  for (int layer = 0; layer < layers_; ++layer) mean += 0.5 * layer_weight_[layer] * pressure_[layer_at(cell, layer)];
   return mean;
 }
 
-void ShellElements::visit_state(StateVisitor& state) {
+template <bool axisymmetric>
+void SolidShells<axisymmetric>::visit_state(StateVisitor& state) {
   ElementSet::visit_state(state);
   state("pressure", pressure_);
   state("energy", energy_);
@@ -651,10 +729,14 @@ void ShellElements::visit_state(StateVisitor& state) {
   state("bulk modulus", bulk_);
 }
 
-std::size_t ShellElements::memory_bytes() const {
+template <bool axisymmetric>
+std::size_t SolidShells<axisymmetric>::memory_bytes() const {
   std::size_t values = 0;
   for (const auto* field : {&pressure_, &energy_, &dilatation_, &viscous_pressure_, &residual_, &bulk_}) values += field->size();
   return shared_memory_bytes() + values * sizeof(double);
 }
+
+template class SolidShells<false>;
+template class SolidShells<true>;
 
 }  // namespace undex::fem

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "core/bilinear_patch.hpp"
 #include "core/errors.hpp"
@@ -34,11 +36,29 @@ double depth(const RigidPlane& plane, const Vec3& x) {
 }
 
 std::unique_ptr<ElementSet> make_elements(const Settings& settings, const Grid& grid) {
+  const auto make = [&]<class Kind>(std::type_identity<Kind>, auto... more) -> std::unique_ptr<ElementSet> {
+    return std::make_unique<Kind>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity, more...);
+  };
+  const bool rings = settings.axisymmetric;
   if (settings.element == ElementKind::hexahedron)
-    return std::make_unique<Elements>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity);
-  return std::make_unique<ShellElements>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity,
-                                         thickness_direction(settings.mesh, "structure '" + settings.name + "'"),
-                                         settings.points_through);
+    return rings ? make(std::type_identity<RingElements>()) : make(std::type_identity<Elements>());
+  const int through = thickness_direction(settings.mesh, rings, "structure '" + settings.name + "'");
+  return rings ? make(std::type_identity<RingShells>(), through, settings.points_through)
+               : make(std::type_identity<ShellElements>(), through, settings.points_through);
+}
+
+/// What is not of revolution.
+void check_meridian(Mistakes& mistakes, const Settings& settings) {
+  const auto along_axis = [](const Vec3& v) { return v[0] == 0.0 && v[2] == 0.0; };
+  mistakes.require(along_axis(settings.initial_velocity), "the initial velocity (", settings.initial_velocity.transpose(),
+                   ") m/s is not along the axis of revolution; make it so, or compute in 3D");
+  mistakes.require(along_axis(settings.gravity), "gravity (", settings.gravity.transpose(),
+                   ") m/s^2 is not along the axis of revolution; make it so, or compute in 3D");
+  for (const RigidPlane& plane : settings.planes)
+    mistakes.require(plane.axis == 1, "a rigid plane across axis ", plane.axis,
+                     " is not of revolution; put it across the axis of revolution, or compute in 3D");
+  for (const int axis : settings.symmetry_axes)
+    mistakes.require(axis == 1, "symmetry axis ", axis, " does not exist in a meridian; only that along the axis, 1, does");
 }
 
 void check(const Settings& settings, const Grid& grid) {
@@ -68,8 +88,10 @@ void check(const Settings& settings, const Grid& grid) {
   mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ", material.heat_capacity,
                    " J/kg/K; it must be positive");
   mistakes.require(settings.initial_velocity.allFinite(), "the initial velocity is not finite");
-  mistakes.require(settings.points_through >= 2 && settings.points_through <= ShellElements::most_layers,
-                   "points_through = ", settings.points_through, "; give 2 to ", ShellElements::most_layers);
+  mistakes.require(settings.points_through >= 2 && settings.points_through <= most_layers,
+                   "points_through = ", settings.points_through, "; give 2 to ", most_layers);
+
+  if (settings.axisymmetric) check_meridian(mistakes, settings);
 
   double extent = 0.0;
   for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
@@ -153,6 +175,12 @@ std::array<Vec3, 4> pressed(const std::array<Vec3, 4>& x) {
   return force;
 }
 
+/// The same of a segment's ring: its normal is one, and the node's shape function times the radius is integrated without error.
+std::array<Vec3, 4> pressed_ring(const Vec3& a, const Vec3& b) {
+  const Vec3 into = std::numbers::pi / 3.0 * Vec3(b[1] - a[1], a[0] - b[0], 0.0);
+  return {(2.0 * a[0] + b[0]) * into, (a[0] + 2.0 * b[0]) * into, Vec3::Zero(), Vec3::Zero()};
+}
+
 std::string written(const Vec3& x) {
   std::ostringstream text;
   text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ") m";
@@ -201,6 +229,11 @@ struct Structure::Implementation {
     for (int axis : settings.symmetry_axes)
       for (std::size_t i = 0; i < n; ++i)
         if (std::abs(grid.nodes[i][axis]) <= 1e-9 * extent) inverse_mass[i][axis] = 0.0;
+    if (settings.axisymmetric)
+      for (std::size_t i = 0; i < n; ++i) {
+        inverse_mass[i][2] = 0.0;
+        if (grid.nodes[i][0] == 0.0) inverse_mass[i][0] = 0.0;
+      }
     for (const Support& support : settings.supports)
       for (const auto& quad : grid.faces.at(support.face))
         for (int node : quad)
@@ -256,7 +289,8 @@ struct Structure::Implementation {
     for (const PressureLoad& load : settings.loads) {
       const double pressure = interpolated(load, time);
       for (const auto& quad : grid.faces.at(load.face)) {
-        const auto force = pressed({position[quad[0]], position[quad[1]], position[quad[2]], position[quad[3]]});
+        const auto force =
+            is_segment(quad) ? pressed_ring(position[quad[0]], position[quad[1]]) : pressed(corners_of(quad, position));
         for (int v = 0; v < 4; ++v) load_force[quad[v]] += pressure * force[v];
       }
     }

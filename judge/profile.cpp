@@ -286,7 +286,8 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
   if (comparison.core && *comparison.solution != scene::Solution::riemann)
     table.complain("core", table.path_of("core") + " is for solution = \"riemann\": round flows have no axis; leave it out");
   if (scene.meridian && *comparison.solution == scene::Solution::riemann)
-    table.complain("solution", table.path_of("solution") + ": a plane flow is compared in 1, 2 or 3 dimensions, not in a meridian");
+    table.complain("solution",
+                   table.path_of("solution") + ": a plane flow is compared in 1, 2 or 3 dimensions, not in a meridian");
   if (!table.report().empty()) return;  // bodies that are not sound pose nothing
   try {
     const ProfileProblem problem = profile_problem(scene.fluid, *comparison.solution);

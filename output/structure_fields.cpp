@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "core/hexahedral_mesh.hpp"
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
 
@@ -14,7 +15,10 @@ namespace undex::output {
 
 namespace {
 
-constexpr unsigned char vtk_hexahedron = 12;
+constexpr unsigned char vtk_quad = 9, vtk_hexahedron = 12;
+
+/// Nodes of a cell: a meridian's has each twice.
+std::span<const int> nodes_of(const std::array<int, 8>& cell) { return {cell.data(), is_quadrangle(cell) ? 4u : 8u}; }
 
 void check_fields(std::span<const Field> fields, std::size_t count, const char* place) {
   for (const Field& field : fields)
@@ -27,26 +31,28 @@ void write_grid(const hdf5::File& file, const StructureSnapshot& snapshot) {
   const std::int64_t version[2] = {1, 0};
   const std::int64_t points = static_cast<std::int64_t>(snapshot.positions.size());
   const std::int64_t cells = static_cast<std::int64_t>(snapshot.cells.size());
-  const std::int64_t connections = 8 * cells;
 
   const hdf5::Handle root = file.group(file, "VTKHDF");
   file.attribute(root, "Version", version);
   file.attribute(root, "Type", "UnstructuredGrid");
   file.dataset(root, "NumberOfPoints", {&points, 1});
   file.dataset(root, "NumberOfCells", {&cells, 1});
-  file.dataset(root, "NumberOfConnectivityIds", {&connections, 1});
-
   std::vector<std::int64_t> connectivity, offsets{0};
+  std::vector<unsigned char> types;
   connectivity.reserve(snapshot.cells.size() * 8);
   offsets.reserve(snapshot.cells.size() + 1);
   for (const auto& cell : snapshot.cells) {
-    connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+    const std::span<const int> nodes = nodes_of(cell);
+    connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(nodes.size() == 4 ? vtk_quad : vtk_hexahedron);
   }
+  const std::int64_t connections = static_cast<std::int64_t>(connectivity.size());
+  file.dataset(root, "NumberOfConnectivityIds", {&connections, 1});
   file.dataset(root, "Points", hdf5::to_float(as_components(snapshot.positions)), 3);
   file.dataset(root, "Connectivity", connectivity);
   file.dataset(root, "Offsets", offsets);
-  file.dataset(root, "Types", std::vector<unsigned char>(snapshot.cells.size(), vtk_hexahedron));
+  file.dataset(root, "Types", types);
 
   const hdf5::Handle point_data = file.group(root, "PointData");
   for (const Field& field : snapshot.point_data)

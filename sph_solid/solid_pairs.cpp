@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/errors.hpp"
 #include "sph_fluid/pairs/kernels.hpp"
@@ -66,6 +67,13 @@ void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& 
   write_back(particles);
 }
 
+/// Length of the ring of a particle of a body of revolution [m]; 1 in the plane and in space. Contact meets areas of the
+/// meridian where it otherwise meets volumes, and stresses times the rings' lengths, which are those of the start: with these the
+/// forces are the exact derivative of sum V q^2/(2 K) with respect to r as well.
+double SolidPairs::ring(const SolidParticles& p, std::uint32_t i) const {
+  return around_.axisymmetric ? 2.0 * std::numbers::pi * p.start[i][0] : 1.0;
+}
+
 /// The contact pressure of the present overlap. Bodies that touch at the start do so without pressure.
 void SolidPairs::find_contact(SolidParticles& p, bool started) {
   for (const Range& range : ranges_) {
@@ -116,7 +124,7 @@ void SolidPairs::pack(const SolidParticles& p) {
     x_[k] = p.x[i][0];
     y_[k] = p.x[i][1];
     z_[k] = p.x[i][2];
-    rows_[k] = {p.v[i][0], p.v[i][1], p.v[i][2], p.pressure[i], p.mass[i] / p.rho[i], p.rho[i], p.sound[i], 0.0};
+    rows_[k] = {p.v[i][0], p.v[i][1], p.v[i][2], p.pressure[i], p.mass[i] / (p.rho[i] * ring(p, i)), p.rho[i], p.sound[i], 0.0};
   }
   for (const Range& range : ranges_)
     for (std::uint32_t k = range.begin; k < range.end; ++k) rows_[k].h = contact_h(range);
@@ -286,11 +294,11 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
           solid.strain[3 + a] = 0.5 * (g[3 * b + c] + g[3 * c + b]);
         }
       } else {
-        row.volume = p.mass[i] / p.rho[i];
+        row.volume = p.mass[i] / (p.rho[i] * ring(p, i));
       }
-      row.p = p.contact_pressure[i];
+      row.p = ring(p, i) * p.contact_pressure[i];
       row.rho = p.rho[i];
-      row.c = p.sound[i];
+      row.c = ring(p, i) * p.sound[i];
       solid.stress[0] = sigma(0, 0), solid.stress[1] = sigma(1, 1), solid.stress[2] = sigma(2, 2);
       solid.shear_sound = std::sqrt(range.body->material.shear_modulus / p.rho[i]);
       solid.stress[3] = sigma(1, 2), solid.stress[4] = sigma(2, 0), solid.stress[5] = sigma(0, 1);

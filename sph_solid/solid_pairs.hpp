@@ -50,6 +50,7 @@ class SolidPairs {
   void run(void (*pass)(const sph::PairInput&, const sph::PairOutput&), const sph::PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
+  double ring(const SolidParticles& particles, std::uint32_t i) const;
   void find_contact(SolidParticles& particles, bool started);
   void write_back(SolidParticles& particles) const;
 

@@ -77,8 +77,10 @@ std::string Solids::description() const {
   for (const SolidGroup& group : self_->groups) {
     const Body& solid = *group.body;
     std::snprintf(line, sizeof line, "  %-16s %10zu particles  %.6g %s of %s, spacing %.6g m, %s Lagrangian\n",
-                  solid.name.c_str(), std::size_t(group.end - group.begin), volume(solid.shape, kept, around.dimension),
-                  unit[around.dimension - 1], solid.material.name.c_str(), group.spacing, group.lagrangian ? "total" : "updated");
+                  solid.name.c_str(), std::size_t(group.end - group.begin),
+                  around.axisymmetric ? volume_of_revolution(solid.shape, kept) : volume(solid.shape, kept, around.dimension),
+                  unit[around.axisymmetric ? 2 : around.dimension - 1], solid.material.name.c_str(), group.spacing,
+                  group.lagrangian ? "total" : "updated");
     text += line;
   }
   std::snprintf(line, sizeof line, "  %.6g kg, stable step %.4g us (%s)\n", ledger().mass, stable_step() * 1e6,
@@ -113,6 +115,10 @@ BodyLedger Solids::ledger() const {
   ledger.momentum = blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.v[i]; }).value;
   ledger.angular_momentum =
       blocked_sum<Sum3>(0, n, [&](std::uint32_t i) -> Vec3 { return p.mass[i] * p.x[i].cross(p.v[i]); }).value;
+  if (self_->around.axisymmetric) {  // whole rings have momentum along the axis only
+    ledger.momentum = Vec3(0.0, ledger.momentum[1], 0.0);
+    ledger.angular_momentum.setZero();
+  }
   return ledger;
 }
 
@@ -177,6 +183,8 @@ BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
 
 sph::LinedWall Solids::wet_wall(bool free_slip) const {
   const Implementation& s = *self_;
+  if (s.around.axisymmetric && !free_slip)
+    throw std::invalid_argument("coupling.slip: water slips along solids of revolution; take true");
   const std::size_t n = s.wet_particles.size();
   sph::LinedWall wall;
   wall.free_slip = free_slip;

@@ -12,6 +12,7 @@
 
 #include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
+#include "sph_solid/meridian.hpp"
 #include "sph_solid/solid_lattice.hpp"
 #include "sph_solid/solid_faces.hpp"
 #include "sph_solid/solids_implementation.hpp"
@@ -45,7 +46,8 @@ Vec3 middle_of(const Shape& shape, int dimension) {
 
 }  // namespace
 
-Solids::Implementation::Implementation(const Settings& given, const sph::Settings& of_all) : around(of_all), settings(given) {
+Solids::Implementation::Implementation(const Settings& given, const sph::Settings& of_all)
+    : around(of_all), settings(in_meridian(given, of_all)) {
   if (settings.planes.size() > most_planes) throw std::invalid_argument("planes: at most 32 are possible");
   if (around.numerics.threads > 0) omp_set_num_threads(around.numerics.threads);
   time = around.start_time;

@@ -34,6 +34,7 @@ TotalLagrangian::TotalLagrangian(const Settings& settings, const sph::Settings& 
   backed_.assign(n, 0);
   swollen_.assign(n, 1.0);
   planes_ = settings.planes;
+  if (around.axisymmetric) find_rings(h / spacing, particles);
   find_layers(settings, layer, particles);
   list_images(around, settings, layer, particles);
   find_neighbours(volume, particles);
@@ -61,7 +62,7 @@ void TotalLagrangian::find_neighbours(std::span<const double> volume, const Soli
       bins.around(mirrored(X[i], image), [&](std::uint32_t j) {
         if (j == i && m == 0) return;
         const Vec3 d = X[i] - mirrored(X[j], image);
-        if (d.squaredNorm() < reach * reach && (!image.planes || lies_upon(j))) visit(j, m, d);
+        if (d.squaredNorm() < reach * reach && (!image.planes || lies_upon(j)) && ring_of_pair(i, j, d) > 0.0) visit(j, m, d);
       });
     }
   };
@@ -77,7 +78,7 @@ void TotalLagrangian::find_neighbours(std::span<const double> volume, const Soli
     Mat3 moment = Mat3::Zero();
     for_each_neighbour(i, [&](std::uint32_t j, unsigned image, const Vec3& d) {
       const double r = d.norm();
-      const double s = -(volume[i] * volume[j]) * gradient_factor<Kernel>(r, h_, dimension_);
+      const double s = -(volume[i] * volume[j]) * ring_of_pair(i, j, d) * gradient_factor<Kernel>(r, h_, dimension_);
       const Vec3 w = -s * d;
       if (!images_[image].planes) moment += s * d * d.transpose();
       neighbours_[at++] = {w[0], w[1], w[2], s, j, image};
@@ -115,6 +116,7 @@ Mat3 TotalLagrangian::gradient_of(const Place& place, std::uint32_t i, double& s
   D << d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7], d[8];
   F.noalias() = D * inverse_moment_[i];
   for (int a = dimension_; a < 3; ++a) F(a, a) = 1.0;
+  if (!radius_.empty()) F(2, 2) = hoop_stretch(place, i);
   double affine = 0;
   for (int a = 0; a < dimension_; ++a) affine += D.row(a).dot(F.row(a));
   stretched = std::max(0.0, squares - affine);
@@ -180,6 +182,7 @@ void TotalLagrangian::make_row(const SolidParticles& p, std::uint32_t k, const M
     row.x[r] = p.x[i][r];
   }
   row.k = stiffness_[k];
+  row.hoop = volume_[k] * piola(2, 2);
 }
 
 void TotalLagrangian::add_forces(SolidParticles& p, const std::vector<Vec3>& acceleration, double dt) {
@@ -215,6 +218,7 @@ void TotalLagrangian::add_forces(SolidParticles& p, const std::vector<Vec3>& acc
       for (int axis = 0; axis < dimension_; ++axis) p.force[begin_ + i][axis] += f[axis];
     }
   }
+  if (!radius_.empty()) add_hoop_forces(p);
   add_pair_viscosity(p, acceleration, dt);
 }
 
@@ -282,6 +286,7 @@ double TotalLagrangian::hourglass_energy() const {
 
 std::size_t TotalLagrangian::memory_bytes() const {
   return neighbours_.capacity() * sizeof(Neighbour) + first_.capacity() * sizeof(std::uint64_t) +
+         radius_.size() * (sizeof(double) + sizeof(std::uint32_t)) +
          (end_ - begin_) *
              (3 * sizeof(Mat3) + 5 * sizeof(double) + sizeof(Row) + sizeof(PlaneSet) + below_.size() * sizeof(std::uint32_t));
 }

@@ -14,6 +14,14 @@
 // with a share that rises from 0 to 1 between compressions (1 - rho0/rho) of 10 and 15 %. Without it particles pass each other.
 // A flat layer that touches a rigid plane, and what lies upon it, has images behind the plane as at a symmetry plane
 // (plane_contact.hpp): neighbours of the start that count as long as both sides of the pair are backed.
+//
+// Of a body of revolution x = (r, axial, 0) lies in its meridian, V are volumes of whole rings, A = V/(2 pi R) areas, and
+//   w_ij = A_i A_j 2 pi |R_i + R_j|/2 grad W_ij,   F_theta = r/R,   f_i receives -V_i P_theta/R_i along r.
+// A pair's ring is the one half-way between both, R_j of an image across the axis being negative. F is exact for u_r = a R,
+// u_z = b Z + c all the same, and the force is still the derivative of sum V P : dF/dt. With areas alone for weights (R_i in place
+// of the mean) uniform stress would throw the first column off the axis; half-way rings leave an eighth of that force, which is
+// taken away by what the first column borrows: its F_theta is (1 - b) r/R + b (r/R of the next column), b such that the columns
+// of a lattice stay at rest under uniform pressure (total_lagrangian_rings.cpp).
 #pragma once
 
 #include <cstdint>
@@ -67,13 +75,24 @@ class TotalLagrangian {
   };
   struct alignas(64) Row {
     double a[9], k, x[3];
+    double hoop;  ///< V P_theta [N m]
   };
   void list_images(const sph::Settings& around, const Settings& settings, std::span<const OuterLayer> layer,
                    const SolidParticles& particles);
+  void find_rings(double eta, const SolidParticles& particles);
+  /// What makes the weight of a pair at a distance d [m] from V_i V_j times a kernel's gradient [1/m]; 1 in the plane.
+  double ring_of_pair(std::uint32_t i, std::uint32_t j, const Vec3& d) const;
+  void add_hoop_forces(SolidParticles& particles) const;
   void find_layers(const Settings& settings, std::span<const OuterLayer> layer, const SolidParticles& particles);
   /// Particles that have begun or ceased to be backed since the last step: their moments.
   void follow_contact(const SolidParticles& particles);
   /// F of particle i by the places of all, and sum_j s_ij |F X_ij - x_ij|^2.
+  template <class Place>
+  double hoop_stretch(const Place& place, std::uint32_t i) const {
+    const double own = place(i)[0] / radius_[i];
+    const std::uint32_t next = next_column_[i];
+    return next == none ? own : (1.0 - borrowed_) * own + borrowed_ * (place(next)[0] / radius_[next]);
+  }
   template <class Place>
   Mat3 gradient_of(const Place& place, std::uint32_t i, double& stretched) const;
   void begin_anew(SolidParticles& particles, std::uint32_t i, double dt);
@@ -107,6 +126,11 @@ class TotalLagrangian {
   std::vector<double> swollen_;                    ///< volume over V det F, where neighbours have come or gone [-]
   std::vector<unsigned char> anew_;                ///< whose neighbours have in this step; empty: nobody's
   std::vector<PlaneSet> backed_;                   ///< by which rigid planes
+
+  // Of a body of revolution; empty in the plane.
+  std::vector<double> radius_;              ///< at the start [m]
+  std::vector<std::uint32_t> next_column_;  ///< from whom a particle beside the axis borrows, or none
+  double borrowed_ = 0;
 };
 
 }  // namespace undex::solid

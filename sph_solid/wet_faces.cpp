@@ -103,6 +103,63 @@ std::vector<FacePatch> wet_patches(const Body& body, const sph::Settings& around
   return patches;
 }
 
+// ---- Of a body of revolution ----------------------------------------------------------------------------------------
+
+/// A line of the meridian that water touches, from its low end to its high one, and the direction out of the body.
+struct WetLine {
+  std::function<Vec3(double share)> place;
+  double length;  ///< [m]
+  std::function<Vec3(const Vec3&)> outward;
+};
+
+WetLine straight_line(const Vec3& from, const Vec3& to, const Vec3& outward) {
+  return {[=](double share) { return Vec3(from + share * (to - from)); }, (to - from).norm(),
+          [=](const Vec3&) { return outward; }};
+}
+
+/// A sphere's meridian, or where it does not reach the axis the section of a torus.
+WetLine round_line(const Vec3& center, double radius) {
+  const double half = center[0] < radius ? std::acos(std::max(-1.0, -center[0] / radius)) : std::numbers::pi;
+  const auto exact = [=](double r) { return std::abs(r) < 1e-12 * radius ? 0.0 : r; };  // poles lie on the axis
+  return {[=](double share) {
+            const double angle = half * (2.0 * share - 1.0);
+            return Vec3(exact(center[0] + radius * std::cos(angle)), center[1] + radius * std::sin(angle), 0.0);
+          },
+          2.0 * half * radius, [=](const Vec3& x) { return Vec3((x - center).normalized()); }};
+}
+
+/// Those of a box or a sphere (in_meridian allows no other).
+std::vector<WetLine> wet_lines(const Body& body, const sph::Settings& around) {
+  if (const auto* ball = std::get_if<Sphere>(&body.shape.base)) return {round_line(ball->center, ball->radius)};
+  const Box& box = std::get<Box>(body.shape.base);
+  const bool whole = box.low[0] < 0.0, halved = around.symmetry.axis[1] && box.low[1] <= 0.0;  // about the axis, along it
+  const double inner = whole ? 0.0 : box.low[0], outer = box.high[0], low = halved ? 0.0 : box.low[1], high = box.high[1];
+  std::vector<WetLine> lines;
+  for (const std::string& name : body.wet.empty() ? solid_faces(box, 2) : body.wet) {
+    if (name == "x_high") lines.push_back(straight_line({outer, low, 0.0}, {outer, high, 0.0}, Vec3::UnitX()));
+    if (name == "x_low" && !whole) lines.push_back(straight_line({inner, low, 0.0}, {inner, high, 0.0}, -Vec3::UnitX()));
+    if (name == "y_high") lines.push_back(straight_line({inner, high, 0.0}, {outer, high, 0.0}, Vec3::UnitY()));
+    if (name == "y_low" && !halved) lines.push_back(straight_line({inner, low, 0.0}, {outer, low, 0.0}, -Vec3::UnitY()));
+  }
+  return lines;
+}
+
+/// Adds segments about a spacing wide. Lines that meet share no node: each moves as the body's edge does.
+void mesh(const WetLine& line, double spacing, WetSurface& surface) {
+  const int count = std::max(1, int(std::lround(line.length / spacing)));
+  const int first = int(surface.nodes.size());
+  const bool closed = (line.place(0.0) - line.place(1.0)).norm() < 1e-6 * spacing;
+  for (int k = 0; k < (closed ? count : count + 1); ++k) surface.nodes.push_back(line.place(double(k) / count));
+  for (int k = 0; k < count; ++k) {
+    int a = first + k, b = first + (closed ? (k + 1) % count : k + 1);
+    const Vec3 middle = 0.5 * (surface.nodes[a] + surface.nodes[b]), along = surface.nodes[b] - surface.nodes[a];
+    if (along.cross(Vec3::UnitZ()).dot(line.outward(middle)) > 0.0) std::swap(a, b);
+    surface.faces.push_back({a, b, b, a});
+  }
+}
+
+// ---- In space -------------------------------------------------------------------------------------------------------
+
 /// Adds a grid of quadrilaterals about a spacing wide. Where a round patch closes upon itself the last nodes are the first.
 void mesh(const FacePatch& patch, double spacing, WetSurface& surface) {
   const int count[2] = {std::max(1, int(std::lround(patch.length[0] / spacing))),
@@ -131,9 +188,13 @@ void mesh(const FacePatch& patch, double spacing, WetSurface& surface) {
 
 void Solids::mesh_wet_faces() {
   Implementation& s = *self_;
-  for (const Body& body : s.settings.bodies)
-    for (const FacePatch& patch : wet_patches(body, s.around))
-      mesh(patch, body.spacing.value_or(s.around.lattice.spacing), s.surface);
+  for (const Body& body : s.settings.bodies) {
+    const double spacing = body.spacing.value_or(s.around.lattice.spacing);
+    if (s.around.axisymmetric)
+      for (const WetLine& line : wet_lines(body, s.around)) mesh(line, spacing, s.surface);
+    else
+      for (const FacePatch& patch : wet_patches(body, s.around)) mesh(patch, spacing, s.surface);
+  }
   s.surface_points.resize(s.surface.nodes.size());
 #pragma omp parallel for schedule(dynamic, 64)
   for (std::size_t n = 0; n < s.surface_points.size(); ++n) s.surface_points[n] = s.locate(s.surface.nodes[n]);

@@ -3,6 +3,7 @@
 
     measure.py PROGRAM OUT [SCENE ...]      runs the scenes (default: all) with the default scheme and with the paper's into
                                             OUT/<scene>_r and OUT/<scene>_m, unless they are there, and prints a line for each
+                                            (about an axis monaghan stands in for the paper's, which has no rings)
                                             criterion; OUT "-" is a temporary folder; SCENE:default or SCENE:paper is one scheme alone
 Exit code 1 where a criterion is missed. Needs NumPy and h5py.
 """
@@ -21,6 +22,7 @@ except ImportError:
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAPER = ["scheme.name=paper"]   # which brings the Gaussian kernel; alpha 1 and beta 10 are the defaults
+MONAGHAN = ["scheme.name=monaghan"]
 
 
 class Run:
@@ -123,26 +125,49 @@ def contrast(run, gas_pressure, water_pressure, length=0.1):
     return found
 
 
-def charge(run):
+def charge(run, along="x"):
     time, f = run.snapshots()[-1]
-    out = np.sum(f["x"] < 0)
+    out = np.sum(f[along] < 0)
     header, rows = run.table("history/beneath.csv")
     peak = max(row[1] for row in rows)
     return [("nobody behind the wall", out == 0, str(out)),
             ("peak on the wall beneath it between 5 and 100 GPa", 5e9 < peak < 100e9, f"{peak / 1e9:.1f} GPa")]
 
 
-def closes(run, centre, wanted, tolerance):
+def closes(run, centre, wanted, tolerance, along="x", across=("y", "z")):
     """A void is closed when the water that meets in it has its largest mean pressure within the first radius of its middle."""
     best = (0.0, 0.0)
     for time, f in run.snapshots():
-        inside = (f["x"] - centre) ** 2 + f["y"] ** 2 + f["z"] ** 2 < 0.01 ** 2
+        inside = (f[along] - centre) ** 2 + sum(f[a] ** 2 for a in across) < 0.01 ** 2
         if inside.sum() > 5:
             best = max(best, (f["pressure"][inside].mean(), time))
     pressure, time = best
     end = run.summary["time_s"]
     return [(f"closed within {100 * tolerance:.0f} % of {wanted * 1e6:.1f} us", abs(time / wanted - 1) < tolerance and time < 0.99 * end,
              f"{time * 1e6:.0f} us, mean pressure there {pressure / 1e6:.0f} MPa")]
+
+
+def rests(run, pressure, limit):
+    found = []
+    for time, f in run.snapshots():
+        off = np.abs(f["pressure"] / pressure - 1)
+        found.append((f"pressure at {time * 1e3:.1f} ms within {100 * limit:g} %", off.max() < limit, f"{100 * off.max():.2f} %"))
+    return found
+
+
+def implodes(run):
+    """Nothing depends on the place along the axis."""
+    time, f = run.snapshots()[-1]
+    rows = [np.array(run.table(f"history/{name}.csv")[1]) for name in ("axis", "axis_10mm")]
+    apart, most = np.abs(rows[0][:, 1] - rows[1][:, 1]).max(), rows[0][:, 1].max()
+    return [("the same pressure along the axis within 1 % of its peak", apart < 0.01 * most, f"{apart / most:.1e} of {most / 1e9:.1f} GPa"),
+            ("nobody beyond the axis or the wall", f["x"].min() > 0 and f["x"].max() < 0.04, f"{f['x'].min():.1e} to {f['x'].max():.4f} m")]
+
+
+def encloses(run, radius):
+    time, f = run.snapshots()[-1]
+    out = np.sum(np.hypot(f["x"], f["z"]) > radius)
+    return [("nobody outside", out == 0, str(out))]
 
 
 def quiescent(run, speed_limit=1.5, pressure_limit=0.05):
@@ -201,6 +226,11 @@ CASES = {
     "quiescent_box_no_slip": lambda run, get: quiescent(run, 1e-3, 1e-5),   # to the round-off of single precision
     "quiescent_rings": lambda run, get: quiescent(run),
     "hydrostatic_box": lambda run, get: hydrostatic(run),
+    "axis_rest": lambda run, get: rests(run, 1e9, 0.01),
+    "axis_implosion": lambda run, get: implodes(run),
+    "axis_charge_at_wall": lambda run, get: charge(run, "z"),
+    "axis_jet": lambda run, get: closes(run, 0.01, 1.205 * rayleigh, 0.1, "z", ("x",)),
+    "axis_vessel": lambda run, get: encloses(run, 0.04),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
     "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall and plane"),
 }
@@ -217,8 +247,9 @@ def measure(program, out, scenes):
     """1 where a criterion is missed, else 0."""
     failed = False
     for scene, _, scheme in (name.partition(":") for name in scenes or CASES):
-        for suffix, changes in (("r", []), ("m", PAPER)):
-            if scheme == ("paper" if suffix == "r" else "default"):
+        other = "monaghan" if scene.startswith("axis_") else "paper"
+        for suffix, changes in (("r", []), ("m", MONAGHAN if other == "monaghan" else PAPER)):
+            if scheme == (other if suffix == "r" else "default"):
                 continue
             def get(name):
                 folder = out / f"{name}_{suffix}"
@@ -234,7 +265,7 @@ def measure(program, out, scenes):
             if s["status"] == "done":
                 checks += CASES[scene](run, get)
             acted = {k: v for k, v in s["clamps"].items() if v}
-            print(f"{scene} {'default' if suffix == 'r' else 'paper'}: {s['steps']} steps, {s['cpu_time_s']:.0f} s CPU, bounds {acted}")
+            print(f"{scene} {'default' if suffix == 'r' else other}: {s['steps']} steps, {s['cpu_time_s']:.0f} s CPU, bounds {acted}")
             for what, passed, value in checks:
                 failed = failed or not passed
                 print(f"    {'pass' if passed else 'FAIL'}  {what}: {value}")

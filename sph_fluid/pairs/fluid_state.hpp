@@ -34,11 +34,11 @@ struct FluidState {
 /// What a ring reads beside its rows; see RingRow.
 template <class V>
 struct RingState {
-  V a, slope, lent, share;
+  V a, slope, share;
 
   template <class Read>
   UNDEX_INLINE void read_ring(Read entry) {
-    a = entry(0), slope = entry(1), lent = entry(2), share = entry(3);
+    a = entry(0), slope = entry(1), share = entry(2);
   }
 };
 

@@ -102,12 +102,12 @@ struct DeformationRow {
 
 /// What pairs of rings read beside (pairs/ring_kernel.hpp).
 struct RingRow {
-  double a;            ///< [1/m]
-  double slope, lent;  ///< [1/m^2]
-  double share;        ///< of an image: how much of the hoop it has, 0 in a wall along the axis to 1 in one across; of others 1
+  double a;      ///< [1/m]
+  double slope;  ///< [1/m^2]
+  double share;  ///< of an image: how much of the hoop it has, 0 in a wall along the axis to 1 in one across; of others 1
 
   using Number = double;
-  UNDEX_ROW_INLINE int parity(int k) { return k == 1 || k == 2 ? 1 : 0; }
+  UNDEX_ROW_INLINE int parity(int k) { return k == 1 ? 1 : 0; }
 };
 
 /// What the pairs add up for a fluid particle.

@@ -55,9 +55,9 @@ struct Monaghan {
     return T(0.5) * (i.p + j.p + viscous);
   }
 
-  /// The same against a wall.
-  UNDEX_INLINE void wall_exchange(const FluidState<V>& i, const Wall& w, const Pair<V>& pair, V share, Sums& si,
-                                  WallSums<V>& sw) const {
+  /// The same against a wall. Returns the pressure between both.
+  UNDEX_INLINE V wall_exchange(const FluidState<V>& i, const Wall& w, const Pair<V>& pair, V share, Sums& si,
+                               WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     V closing;
     const V viscous = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
@@ -66,14 +66,15 @@ struct Monaghan {
     si.compression += D;
     si.heat += T(0.5) * viscous * D;
     si.closing = maximum(si.closing, closing);
+    return i.p + T(0.5) * viscous;
   }
 
   UNDEX_INLINE static V filling_share(const State&, const State&) { return broadcast(T(1)); }
   UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
     return exchange(i, j, pair, broadcast(T(1)), si, sj);
   }
-  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
-    wall_exchange(i, w, pair, broadcast(T(1)), si, sw);
+  UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+    return wall_exchange(i, w, pair, broadcast(T(1)), si, sw);
   }
 };
 

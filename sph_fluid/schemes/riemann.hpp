@@ -136,8 +136,8 @@ struct Riemann {
     return p_star;
   }
 
-  /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own.
-  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+  /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own. Returns p*.
+  UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V p_star =
@@ -147,6 +147,7 @@ struct Riemann {
     si.compression += D;
     si.heat += D * (p_star - i.p);
     si.closing = maximum(si.closing, keep(pair.in_reach, jump));
+    return p_star;
   }
 };
 

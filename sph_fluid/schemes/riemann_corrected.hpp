@@ -112,8 +112,8 @@ struct RiemannCorrected {
     return p_star;
   }
 
-  /// As in riemann.hpp, with the wall's velocity for v*.
-  UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
+  /// As in riemann.hpp, with the wall's velocity for v*. Returns p*.
+  UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const V jump = -wall_pair(i, w, pair).approach * reciprocal_sqrt(pair.r2 + T(1e-30));
     const V p_star = Plain::star_pressure(i.p, T(0.5) * Plain::switched(maximum(jump, V{}), i.c) * i.rho, i.c, jump,
                                           pair.least_pressure, T(0.5) * i.rho);
@@ -123,6 +123,7 @@ struct RiemannCorrected {
     si.compression += D;
     si.heat += D * (p_star - i.p);
     si.closing = maximum(si.closing, keep(pair.in_reach, jump));
+    return p_star;
   }
 };
 

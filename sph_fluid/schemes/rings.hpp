@@ -2,12 +2,14 @@
 // rates keep their form, with (a_i + a_j)/2 grad W in place of grad W and the volumes of whole rings; the rest of dK is the
 // hoop's:
 //   (d v_r/dt)_i  = -(1/rho_i) sum_j V_j p* w slope_i
-//   hoop_i        = w [(slope_i - lent_i) v_ri + lent_j v_rj],       a part of the rate of volume like any other:
-//   (d rho/dt)_i  += sum_j rho V_j hoop_i,   (d e/dt)_i += sum_j V_j p*/rho_i hoop_i
+//   hoop_ij       = w/2 (slope_i v_ri + slope_j v_rj),       a part of the rate of volume like any other:
+//   (d rho/dt)_i  += -rho_i sum_j V_j hoop_ij,   (d e/dt)_i += -sum_j V_j p*/rho_i hoop_ij
 // with w = W over its lattice sum, and the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum along
-// the axis and energy are conserved to round-off, whatever slope and lent are. A ring is its own neighbour: the loop meets it
+// the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it
 // with half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
-// would be turned round on its way back to the particle that it shows: i feels its own whole.
+// would be turned round on its way back to the particle that it shows: i feels its own whole. So it is with the dummy particles
+// of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of that n_r
+// times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
 #pragma once
 
 #include "sph_fluid/schemes/reconstruction.hpp"
@@ -27,6 +29,21 @@ struct StateOfRing : Base, RingState<V> {
   }
 };
 
+/// A dummy particle of a smooth wall. Where it would have a third velocity its row has a, for its slip its area.
+template <class V>
+struct WallOfRing : WallState<V> {
+  V a, area;
+
+  template <class Read>
+  UNDEX_INLINE void read(Read entry) {
+    WallState<V>::read(entry);
+    a = this->vz;
+    area = this->slip;
+    this->vz = V{};
+    this->slip = broadcast(Element<V>(1));
+  }
+};
+
 /// Gradients are those of the meridian: areas for volumes.
 template <class T, template <class> class Gradients>
 struct GradientsOfRings : Gradients<T> {
@@ -40,6 +57,13 @@ struct GradientsOfRings : Gradients<T> {
       this->vz = V{};
     }
   };
+  struct Wall : WallOfRing<V> {
+    template <class Read>
+    UNDEX_INLINE void read(Read entry) {
+      WallOfRing<V>::read(entry);
+      this->volume = this->area;
+    }
+  };
 };
 
 template <class T, template <class> class Scheme>
@@ -47,6 +71,7 @@ struct RatesOfRings : Scheme<T> {
   using V = Vec<T>;
   using Plane = Scheme<T>;
   using State = StateOfRing<typename Plane::State, V>;
+  using Wall = WallOfRing<V>;
   using Sums = typename Plane::Sums;
   using Plane::Plane;
   static constexpr bool rings = true;
@@ -57,9 +82,9 @@ struct RatesOfRings : Scheme<T> {
     pair.F *= T(0.5) * (i.a + j.a);
     const V p_star = Plane::pair(i, j, pair, si, sj);
 
-    const V slope = (2 - j.share) * i.slope, lent = j.share * i.lent;
-    const V Di = j.volume * w * ((slope - lent) * i.vx + j.lent * j.vx);
-    const V Dj = i.volume * w * ((j.slope - j.lent) * j.vx + lent * i.vx);
+    const V slope = (2 - j.share) * i.slope, lent = T(0.5) * j.share * i.slope, back = T(0.5) * j.slope;
+    const V Di = j.volume * w * ((slope - lent) * i.vx + back * j.vx);
+    const V Dj = i.volume * w * (back * j.vx + lent * i.vx);
     si.fx -= j.volume * w * slope * p_star;
     sj.fx -= i.volume * w * j.slope * p_star;
     V Ci = Di, Cj = Dj;
@@ -73,6 +98,15 @@ struct RatesOfRings : Scheme<T> {
     sj.compression += Cj;
     si.heat += Di * p_star - Ci * i.p;
     sj.heat += Dj * p_star - Cj * j.p;
+  }
+
+  UNDEX_INLINE void wall(const State& i, const Wall& w, Pair<V> pair, Sums& si, WallSums<V>& sw) const {
+    pair.F *= T(0.5) * (i.a + w.a);
+    const V p_star = Plane::wall(i, w, pair, si, sw);
+    const V hoop = w.volume * pair.W * i.slope * w.nx * w.nx, D = hoop * i.vx;
+    si.fx -= hoop * p_star;
+    si.compression += D;
+    si.heat += D * (p_star - i.p);
   }
 };
 

@@ -218,10 +218,9 @@ RingRow WallImages::ring_of(std::uint32_t c, const Particles& particles, const R
     r = mirror.place[0];
   });
   ring.slope *= ring.share;
-  ring.lent *= ring.share;
   if (r != particles.x[image.owner]) {
     row.vz = row.volume / (2.0 * std::numbers::pi * r);
-    ring.a = rings.at(r, row.h, row.vz).a;
+    ring.a = rings.at(r, row.h).a;
   }
   return ring;
 }

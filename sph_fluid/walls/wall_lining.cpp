@@ -1,7 +1,10 @@
 #include "sph_fluid/walls/wall_lining.hpp"
 
 #include <algorithm>
+#include <numbers>
+#include <stdexcept>
 
+#include "sph_fluid/lattice.hpp"
 #include "sph_fluid/walls/line_walls.hpp"
 
 namespace undex::sph {
@@ -11,7 +14,7 @@ bool WallLining::waits(const Settings& settings, const std::vector<LinedWall>& m
   return !settings.walls.empty() || !moving.empty();
 }
 
-void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& moving) {
+void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& moving, const RingKernel* rings) {
   if (rigid_.empty()) rigid_ = line_walls(settings);
   std::vector<Origin> origin;
   std::vector<double> place[3];
@@ -42,6 +45,12 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
                 .nz = normal[2],
                 .volume = wall.volume[o.point],
                 .slip = wall.slip(o.point)};
+    if (!rings) continue;
+    if (rows_[k].slip != 1.0)
+      throw std::invalid_argument("walls of dummy particles are smooth in an axisymmetric scene: take free_slip for every face");
+    const double r = std::max(x[0], 1e-6 * settings.lattice.spacing), area = rows_[k].volume / (2.0 * std::numbers::pi * r);
+    rows_[k].vz = rings->at(r, smoothing_length(settings, settings.lattice.spacing), area).a;
+    rows_[k].slip = area;
   }
   if (moving.empty()) rigid_ = {};
   packed_ = true;

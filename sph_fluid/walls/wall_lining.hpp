@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/pairs/ring_kernel.hpp"
 #include "sph_fluid/settings.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 
@@ -14,8 +15,9 @@ class WallLining {
  public:
   /// Must they be packed (anew)?
   bool waits(const Settings& settings, const std::vector<LinedWall>& moving) const;
-  /// Where no wall moves this is done once, and what they are made from is not kept.
-  void pack(const Settings& settings, const std::vector<LinedWall>& moving);
+  /// Where no wall moves this is done once, and what they are made from is not kept. In a scene of revolution the rows are those of
+  /// rings (schemes/rings.hpp); throws std::invalid_argument where such a wall is not smooth.
+  void pack(const Settings& settings, const std::vector<LinedWall>& moving, const RingKernel* rings);
   bool packed() const { return packed_; }
 
   void describe(PairInput& in) const;

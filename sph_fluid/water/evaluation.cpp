@@ -173,7 +173,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
       h_max = std::max(h_max, q.h);
       empty += energy < 0.0;
     }
-    if (rings_) p.ring[i] = rings_->row(r, q.h, q.vz);
+    if (rings_) p.ring[i] = rings_->row(r, q.h);
   }
   clamps_.energy += empty;
   clamps_.smoothing += held;
@@ -183,7 +183,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
 void Evaluation::pack_walls(const ParticleSet& set) {
   if (!lining_.waits(settings_, walls_.lined) || (lining_.packed() && !set.meets_walls)) return;
   const auto timer = timers_.measure("walls");
-  lining_.pack(settings_, walls_.lined);
+  lining_.pack(settings_, walls_.lined, rings_ ? &*rings_ : nullptr);
 }
 
 namespace {

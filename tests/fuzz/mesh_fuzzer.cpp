@@ -7,13 +7,15 @@
 
 using namespace undex;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+namespace {
+
+void read_or_refuse(const std::uint8_t* data, std::size_t size, GmshCells kind) {
   HexahedralMesh mesh;
   try {
-    mesh = parse_gmsh(fuzz::text_of(data, size), "m.msh");
+    mesh = parse_gmsh(fuzz::text_of(data, size), "m.msh", kind);
   } catch (const std::invalid_argument& error) {
     fuzz::require(std::string(error.what()).starts_with("m.msh"), "a refusal names the file");
-    return 0;
+    return;
   }
   fuzz::require(!mesh.cells.empty(), "a mesh has cells");
   std::vector<char> used(mesh.nodes.size());
@@ -29,5 +31,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const HexahedralMesh::Face& face : mesh.faces)
     for (const int node : face.nodes)
       fuzz::require(node >= 0 && std::size_t(node) < mesh.nodes.size(), "faces have nodes of the mesh");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  for (const GmshCells kind : {GmshCells::hexahedra, GmshCells::quadrangles}) read_or_refuse(data, size, kind);
   return 0;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "core/gmsh_file.hpp"
@@ -155,8 +156,8 @@ TEST(GmshFile, EndingsOfWindowsUnusedNodesAndMirroredCellsAreRead) {
 }
 
 TEST(GmshFile, MistakesNameFileAndLine) {
-  expect("", "m.msh:0: this is not a hexahedral gmsh mesh");
-  expect("this is no mesh\n", "m.msh:1: this is not a hexahedral gmsh mesh");
+  expect("", "m.msh:0: this is not a gmsh mesh of hexahedra");
+  expect("this is no mesh\n", "m.msh:1: this is not a gmsh mesh of hexahedra");
   expect(with(cubes_2, "2.2 0 8", "2.2 1 8"), "m.msh:2: the mesh is binary; save it again as ASCII");
   expect(with(cubes_2, "2.2 0 8", "4.0 0 8"), "m.msh:2: version 4.0 of gmsh's format is not read");
   expect(with(cubes_2, "2.2 0 8", "4.1 0 8"), "m.msh:9: $Nodes: its first line");  // a header of 4.1 over 2.2
@@ -211,6 +212,74 @@ TEST(GmshFile, DistanceToTheMesh) {
   EXPECT_NEAR(mesh.signed_distance({-1, -2, -2}), 3.0, 1e-15);
   EXPECT_NEAR(mesh.signed_distance({1.0, 0.5, 0.5}), -0.5, 1e-15);  // the face between the cubes is none
   EXPECT_NEAR(mesh.signed_distance({1.9, 0.5, 0.6}), -0.1, 1e-15);
+}
+
+/// Two squares of a meridian side by side, the first on the axis; the outer side is of the group 8, the lower one of 7.
+const std::string squares = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+$EndNodes
+$Elements
+7
+1 15 2 0 1 1
+2 1 2 7 7 1 2
+3 1 2 7 7 2 3
+4 1 2 8 8 3 6
+5 1 2 9 9 4 1
+6 3 2 1 1 1 2 5 4
+7 3 2 1 1 2 5 6 3
+$EndElements
+)";
+
+TEST(GmshFile, MeridiansAreRead) {
+  const auto mesh = std::make_shared<const HexahedralMesh>(parse_gmsh(squares, "m.msh", GmshCells::quadrangles));
+  ASSERT_EQ(mesh->cells.size(), 2u);
+  EXPECT_EQ(mesh->cells[0], (std::array<int, 8>{0, 1, 4, 3, 0, 1, 4, 3}));
+  EXPECT_EQ(pieces(*mesh, JoinedBy::faces), (std::vector<int>{0, 0}));
+  std::map<int, int> sides;
+  for (const auto& [nodes, id] : mesh->faces) {
+    EXPECT_EQ(nodes[0], nodes[3]);
+    EXPECT_EQ(nodes[1], nodes[2]);
+    ++sides[id];
+  }
+  EXPECT_EQ(sides, (std::map<int, int>{{0, 2}, {7, 2}, {8, 1}})) << "a side on the axis is no face, named or not";
+  const MeshDistance distance(mesh);
+  EXPECT_DOUBLE_EQ(distance.signed_distance(Vec3(0.25, 0.5, 0)), -0.5) << "the axis is no boundary";
+  EXPECT_DOUBLE_EQ(distance.signed_distance(Vec3(3.5, 0.5, 0)), 1.5);
+  EXPECT_DOUBLE_EQ(distance.signed_distance(Vec3(1.9, 0.6, 0)), 1.9 - 2.0);
+}
+
+TEST(GmshFile, MistakesOfMeridiansAreRefused) {
+  const auto refused = [](const std::string& text, const char* part) {
+    try {
+      parse_gmsh(text, "m.msh", GmshCells::quadrangles);
+      ADD_FAILURE() << part;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  refused(cubes_2, "m.msh:27: a hexahedron: the mesh of an axisymmetric body must hold quadrangles");
+  refused(with(squares, "6 3 2 1 1 1 2 5 4", "6 2 2 1 1 1 2 5"), "m.msh:20: a triangle: the mesh of an axisymmetric body");
+  refused(with(squares, "6 3 2 1 1 1 2 5 4", "6 16 2 1 1 1 2 5 4"), "elements of type 16");
+  refused(with(squares, "6 2 1 0", "6 2 1 0.1"), "m.msh:11: the node 6 at (2, 1, 0.1) m lies off the plane z = 0");
+  refused(with(squares, "4 0 1 0", "4 -0.1 1 0"), "m.msh:9: the node 4 at (-0.1, 1, 0) m lies beyond the axis");
+  refused(with(squares, "1 2 5 4", "1 2 4 5"), "m.msh:20: the quadrangle near (0, 0, 0) m is inverted or flat");
+  refused(with(squares, "5 1 1 0", "5 1.5 0.2 0"), "inverted or flat");
+  refused(with(squares, "8 8 3 6", "8 8 3 5"), "m.msh:18: the line is a face of no quadrangle");
+  refused(with(squares, "8 8 3 6", "8 8 2 5"), "m.msh:18: the line of group 8 lies inside the mesh, between two quadrangles");
+  refused(with(squares, "7 7 2 3", "7 7 3 6"), "but has one name");
+  refused(with(with(squares, "3 2 0 0", "3 0.5 0 0"), "6 2 1 0", "6 0.5 1 0"), "overlaps");
+  for (std::size_t length = 0; length + 1 < squares.size(); ++length)
+    EXPECT_THROW(parse_gmsh(squares.substr(0, length), "m.msh", GmshCells::quadrangles), std::invalid_argument) << length;
+  expect(squares, "the mesh holds no hexahedra");
 }
 
 TEST(GmshFile, PiecesAreCounted) {

@@ -216,6 +216,18 @@ TEST(StructureFields, FileIsVtkhdfUnstructuredGrid) {
   EXPECT_EQ(in.stored_value_bytes("VTKHDF/Points"), 4u);
 }
 
+TEST(StructureFields, MeridiansAreQuadrangles) {
+  const TemporaryFolder folder;
+  TwoCells mesh;
+  mesh.cells = {{0, 1, 2, 3, 0, 1, 2, 3}, {4, 5, 6, 7, 4, 5, 6, 7}};
+  StructureFields(folder.path).write(0.0, mesh.snapshot());
+  const Reader in(folder.path / "structure_00000.hdf");
+  EXPECT_EQ(in.values("VTKHDF/NumberOfConnectivityIds"), std::vector<double>{8});
+  EXPECT_EQ(in.values("VTKHDF/Offsets"), (std::vector<double>{0, 4, 8}));
+  EXPECT_EQ(in.values("VTKHDF/Types"), (std::vector<double>{9, 9}));
+  EXPECT_EQ(in.values("VTKHDF/Connectivity"), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+}
+
 TEST(StructureFields, IndexListsEverySnapshotWithItsTime) {
   const TemporaryFolder folder;
   const TwoCells mesh;

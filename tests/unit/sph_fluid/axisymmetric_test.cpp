@@ -103,8 +103,8 @@ std::pair<double, double> unrest(Fluid& fluid) {
   return {worst, fluid.maximum_speed()};
 }
 
-/// A spherical vessel, which a Cartesian lattice meets in steps: what these do in two dimensions, where the vessel is a circle, they
-/// do here too.
+/// A spherical vessel, which a Cartesian lattice meets in steps: what these do in two dimensions, where the vessel is a circle,
+/// they do here too.
 TEST(AxisymmetricWalls, SphericalVessel) {
   double worst[2];
   for (const bool rings : {false, true}) {
