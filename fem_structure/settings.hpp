@@ -54,9 +54,6 @@ struct Settings {
   int points_through = 3;  ///< of shells: Gauss points through the thickness of a cell, 2 to 10
   materials::Solid material;
   std::vector<Support> supports;
-  /// In the meridian, x the distance from the axis and y along it: tubes and rods have axis 1, supports and motion are radial and
-  /// axial. Masses, forces and energies are those of the whole ring.
-  bool axisymmetric = false;
   std::vector<int> symmetry_axes;      ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh
                                        ///< from gmsh must already be that part)
   std::vector<std::string> wet_faces;  ///< faces that touch water
