@@ -12,8 +12,9 @@
 // Richtmyer's square, Landshoff's linear part), where psi, a limiter on the ratios of neighbouring velocity
 // gradients, takes it out of smooth compression (R. B. Christensen's form).
 //
-// Solids, in planar and spherical symmetry: the deviator of the stress is s along the radius and -s/2 across it, by the update that
-// all discretisations share (materials/stress_update.hpp). With V a cell's volume and r1, r2, u1, u2 its nodes, it works at the rate
+// Solids, in planar and spherical symmetry: the deviator of the stress is s along the radius and -s/2 across it, by the update
+// that all discretisations share (materials/stress_update.hpp). With V a cell's volume and r1, r2, u1, u2 its nodes, it works
+// at the rate
 //   V s ((u2 - u1)/(r2 - r1) - (u1 + u2)/(r1 + r2))     (planar: the first term alone),
 // whose derivatives with respect to u1 and u2 are the forces on the two nodes: energy is conserved as above.
 #pragma once

@@ -1,7 +1,7 @@
 // A scene that needs one coordinate, on the one-dimensional Lagrangian mesh (exact/lagrangian_1d.hpp): its bodies and solids as
-// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and somewhat wider away from it.
-// What the first wave's front has left behind is merged, the more the farther behind, and what is ahead of it costs nothing. So
-// the cells at work are a few times those of the core, however far the wave goes.
+// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and somewhat wider away
+// from it. What the first wave's front has left behind is merged, the more the farther behind, and what is ahead of it costs
+// nothing. So the cells at work are a few times those of the core, however far the wave goes.
 #pragma once
 
 #include <functional>
@@ -69,7 +69,8 @@ class LineFlow {
   double spacing_;
   std::vector<double> material_;  // number of each layer's body; solids count on after the bodies
   exact::Lagrangian1D mesh_;
-  // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge [m].
+  // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge
+  // [m].
   double next_look_ = 0, last_look_ = 0, front_ = 0, merged_at_ = 0;
 };
 

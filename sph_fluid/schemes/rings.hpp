@@ -8,8 +8,8 @@
 // the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it
 // with half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
 // would be turned round on its way back to the particle that it shows: i feels its own whole. So it is with the dummy particles
-// of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of that n_r
-// times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
+// of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of
+// that n_r times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
 #pragma once
 
 #include "sph_fluid/schemes/reconstruction.hpp"

@@ -54,8 +54,8 @@ TEST(Lagrangian1DSolids, ChargeCaseAndWaterKeepTheirEnergyAndMass) {
   }
 }
 
-/// Two halves of a bar of infinite width meet at 2 v: stress rho c v behind waves of the speed c, or, where that yields, an elastic
-/// precursor of Y (K + 4/3 G)/(2 G) and a plastic wave of the speed sqrt(K/rho).
+/// Two halves of a bar of infinite width meet at 2 v: stress rho c v behind waves of the speed c, or, where that yields, an
+/// elastic precursor of Y (K + 4/3 G)/(2 G) and a plastic wave of the speed sqrt(K/rho).
 TEST(Lagrangian1DSolids, PlaneImpactHasItsElasticAndItsPlasticWave) {
   const double fast = std::sqrt((bulk + 4.0 / 3.0 * shear) / density), slow = std::sqrt(bulk / density);
   for (const double yield : {0.0, 3e8}) {
