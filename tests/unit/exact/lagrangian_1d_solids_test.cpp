@@ -23,7 +23,9 @@ Solid metal(double yield) {
               .rho0 = density,
               .shear_modulus = shear,
               .pressure = materials::LinearPressure{bulk},
-              .flow = materials::Elastic{}};
+              .flow = materials::Elastic{},
+              .spall = {},
+              .damage = {}};
   if (yield > 0) solid.flow = materials::LinearHardening{.Y0 = yield, .H = 0};
   return solid;
 }
