@@ -13,10 +13,14 @@
 
 namespace undex::bench {
 
+/// What is full of water: a cube, a square in the plane, or the cylinder of which the square is the meridian.
+enum class Space { cube, square, cylinder };
+
 /// A way to compute: the parts of the name and what they set.
 struct Variant {
   std::string name;  ///< "riemann/wendland_c2_1.5"
   sph::Numerics numerics;
+  Space space = Space::cube;
 };
 
 /// Every combination of the axes below. A further axis is one more entry; a choice without a name leaves the names alone,
@@ -48,16 +52,21 @@ inline std::vector<Variant> variants() {
       }
     all = longer;
   }
+  for (const auto& [name, space] : {std::pair("square", Space::square), {"cylinder", Space::cylinder}})
+    for (const Variant& cube : std::vector<Variant>(all))
+      if (cube.space == Space::cube && cube.numerics.kernel == KernelName::wendland_c2 && cube.numerics.eta == 1.5)
+        all.push_back({cube.name + "/" + name, cube.numerics, space});
   return all;
 }
 
-/// A cube of about `particles` particles, 1 mm apart.
-inline sph::Settings block(const sph::Numerics& numerics, double particles, int threads) {
+/// A cube (square, meridian) of about `particles` particles, 1 mm apart.
+inline sph::Settings block(const Variant& variant, double particles, int threads) {
   constexpr double spacing = 1e-3;    // [m]
   constexpr double pressure = 1e7;    // [Pa], of the water at rest: the wave's troughs do not cavitate
   constexpr double amplitude = 5e-4;  // of the wave's density: about 1.2 MPa
-  const double side = spacing * std::round(std::cbrt(particles));
-  const Box cube{Vec3::Zero(), Vec3::Constant(side)};
+  const bool cube_of_water = variant.space == Space::cube, rings = variant.space == Space::cylinder;
+  const double side = spacing * std::round(cube_of_water ? std::cbrt(particles) : std::sqrt(particles));
+  const Box cube{Vec3(rings ? -side : 0.0, 0.0, 0.0), Vec3::Constant(side)};
   const materials::Fluid water = materials::find_fluid("water-tait").value();
   const double density = materials::density_at(water.law, pressure, 0.0);
 
@@ -66,7 +75,7 @@ inline sph::Settings block(const sph::Numerics& numerics, double particles, int 
     const double phase = 2.0 * std::numbers::pi / side;
     return sph::StartState{density * (1.0 + amplitude * std::cos(phase * x[0])), 0.0, Vec3::Zero()};
   };
-  wave.mass = density * side * side * side;
+  wave.mass = density * side * side * (rings ? std::numbers::pi * side : cube_of_water ? side : 1.0);
 
   sph::Wall wall;
   wall.name = "box";
@@ -75,12 +84,15 @@ inline sph::Settings block(const sph::Numerics& numerics, double particles, int 
     wall.faces[face] = sph::FaceCondition::free_slip;
 
   sph::Settings settings;
+  settings.dimension = cube_of_water ? 3 : 2;
+  settings.axisymmetric = rings;
+  settings.symmetry.axis[0] = rings;
   settings.lattice.spacing = spacing;
   settings.lattice.jitter = 0.05;
   settings.bodies = {
       {"water", Shape{cube, {}}, water, {}, Vec3::Zero(), {}, {}, {}, {}, false, std::make_shared<const sph::StartField>(wave)}};
   settings.walls = {wall};
-  settings.numerics = numerics;
+  settings.numerics = variant.numerics;
   settings.numerics.threads = threads;
   return settings;
 }

@@ -151,7 +151,7 @@ void register_all(const std::string& filter) {
       for (const int n : size.scaling ? threads : std::vector<int>{1}) {
         const std::string name = "step/" + variant.name + "/" + size.name + "/" + std::to_string(n);
         const double particles = size.particles;
-        add(name, [=](benchmark::State& state) { step(state, name, block(variant.numerics, particles, n)); });
+        add(name, [=](benchmark::State& state) { step(state, name, block(variant, particles, n)); });
       }
   }
 }

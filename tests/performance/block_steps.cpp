@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   for (const bench::Variant& variant : bench::variants()) {
     if (names) std::puts(variant.name.c_str());
     if (argc != 4 || asked != variant.name) continue;
-    sph::Fluid fluid(bench::block(variant.numerics, std::atof(argv[2]), 1));
+    sph::Fluid fluid(bench::block(variant, std::atof(argv[2]), 1));
     counted_steps(fluid, std::atoi(argv[3]));
     std::printf("%zu %s\n", fluid.particle_count(), sph::cpu_level());
     return 0;
