@@ -12,6 +12,7 @@ void settle_revolution(Draft& draft) {
   const Places places(draft.root);
   for (const Objection& objection : objections(scene, line))
     draft.report.add(places.finding(objection.key, "dimension = \"axisymmetric\": " + objection.why));
+  if (!draft.report.empty()) return;  // it has no meridian
   for (int a = 0; a < 3; ++a)
     if (a != scene.axis) scene.fluid.symmetry.axis[static_cast<std::size_t>(a)] = false;
   if (scene.structure) std::erase_if(scene.structure->symmetry_axes, [&](int a) { return a != scene.axis; });

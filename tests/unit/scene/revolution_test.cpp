@@ -94,6 +94,12 @@ TEST(Revolution, WhatIsNotOfRevolutionIsNamed) {
   expect(vessel, {axisymmetric, {"scheme.name", "paper"}}, "scheme.name: this scheme does not compute rings");
   expect(with(vessel, "high = \"open\"", "side = \"no_slip\""), {axisymmetric}, "the fluid slips along walls of revolution");
   expect(vessel, {axisymmetric, {"symmetry.planes", "[\"x\"]"}}, "the plane x = 0 does not go through the axis");
+  expect(with(vessel, "{type = \"sphere\", center = [0.1, 0.01, 0.2], radius = 0.005}",
+              "{type = \"box\", low = [0.09, 0, 0.19], high = [0.11, 0.02, 0.21]}"),
+         {axisymmetric}, "bodies.ball.shape: a box is no body of revolution");
+  expect(
+      with(vessel, "subtract = [\"ball\"]", "subtract = [\"ball\", {type = \"box\", low = [0.1, 0, 0.2], high = [0.2, 1, 1]}]"),
+      {axisymmetric}, "bodies.water.subtract: a box is no body of revolution");
   expect(coupled_tube, {axisymmetric, {"coupling.slip", "false"}}, "coupling.slip: the fluid slips");
   expect(coupled_tube, {axisymmetric, {"structure.supports", "[{face = \"high\", fixed = [\"x\"]}]"}},
          "structure.supports: on the face 'high' both components across the axis");
