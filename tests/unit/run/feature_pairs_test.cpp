@@ -19,7 +19,8 @@ namespace {
 /// What a scene of the matrix is made of. Lengths in mm; "up" is the last axis.
 struct Column {
   int dimension = 3;
-  bool line = false;  // on the one-dimensional mesh
+  bool line = false;   // on the one-dimensional mesh
+  bool round = false;  // a cylinder in place of the box, in its meridian
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
   bool slip = true, surface = false;  // of the coupling; solids by their wet faces
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
@@ -39,6 +40,9 @@ struct Column {
     return text.str();
   }
   std::string box(double low, double high) const {
+    if (round)
+      return "{type = \"cylinder\", axis = \"z\", radius = " + std::to_string(1e-3 * half_width) +
+             ", low = " + std::to_string(1e-3 * low) + ", high = " + std::to_string(1e-3 * high) + "}";
     return "{type = \"box\", low = " + point(-half_width, low) + ", high = " + point(half_width, high) + "}";
   }
   std::string sides(const std::string& after) const {  // of the axes across
@@ -46,6 +50,7 @@ struct Column {
     for (int a = 0; a < dimension - 1; ++a) list += std::string(a ? ", " : "") + '"' + "xyz"[a] + after + '"';
     return '[' + list + ']';
   }
+  std::string end(const char* which) const { return round ? which : std::string(1, up()) + '_' + which; }
   bool elements() const { return plate == Plate::hexahedra || plate == Plate::shell; }
 
   std::string text() const;
@@ -66,23 +71,25 @@ void Column::describe_fluid(std::ostream& out) const {
   }
   if (walls == "none") return;
   out << "[[walls]]\nname = \"duct\"\nshape = " << box(-depth, 40) << "\ncondition = \""
-      << (walls == "no_slip" ? "no_slip" : "free_slip") << "\"\nfaces = {" << up() << "_high = \"open\"";
-  if (walls == "open below") out << ", " << up() << "_low = \"open\"";
+      << (walls == "no_slip" ? "no_slip" : "free_slip") << "\"\nfaces = {" << end("high") << " = \"open\"";
+  if (walls == "open below") out << ", " << end("low") << " = \"open\"";
   out << "}\n";
 }
 
 void Column::describe_plate(std::ostream& out) const {
-  const std::string wet = std::string("[\"") + up() + "_low\"]";
+  const std::string wet = "[\"" + end("low") + "\"]";
   std::string after;
   if (elements()) {
-    out << "[structure]\nshape = {type = \"plate\", low = " << point(-half_width, 0) << ", high = " << point(half_width, 4)
-        << "}\nelement = \"" << (plate == Plate::shell ? "shell" : "hexahedron")
-        << "\"\ncells = {x = 4, y = 4, z = " << (plate == Plate::shell ? 1 : 2)
-        << "}\ncourant = 0.25\nmaterial = " << plate_material << "\nwet = " << wet << "\nsupports = [";
-    if (mirrored) out << "{face = \"x_high\", fixed = [\"x\"]}, {face = \"y_high\", fixed = [\"y\"]}";
-    if (held) out << (mirrored ? ", " : "") << "{face = \"z_high\", fixed = [\"z\"]}";
+    std::string shape = "{type = \"plate\", low = " + point(-half_width, 0) + ", high = " + point(half_width, 4) + "}";
+    std::string cells = std::string("{x = 4, y = 4, z = ") + (plate == Plate::shell ? "1}" : "2}");
+    if (round) shape = box(0, 4).replace(9, 8, "rod"), cells = "{radial = 4, along = 2}";
+    out << "[structure]\nshape = " << shape << "\nelement = \"" << (plate == Plate::shell ? "shell" : "hexahedron")
+        << "\"\ncells = " << cells << "\ncourant = 0.25\nmaterial = " << plate_material << "\nwet = " << wet << "\nsupports = [";
+    if (round) out << "{face = \"side\", fixed = [\"x\", \"y\"]}";
+    else if (mirrored) out << "{face = \"x_high\", fixed = [\"x\"]}, {face = \"y_high\", fixed = [\"y\"]}";
+    if (held) out << (mirrored || round ? ", " : "") << "{face = \"" << end("high") << "\", fixed = [\"z\"]}";
     out << "]\n";
-    if (pushed) out << "loads = [{face = \"z_high\", time = [0, 2e-6, 2.001e-6], pressure = [5e5, 5e5, 5e6]}]\n";
+    if (pushed) out << "loads = [{face = \"" << end("high") << "\", time = [0, 2e-6, 2.001e-6], pressure = [5e5, 5e5, 5e6]}]\n";
   } else {
     out << "[[solids]]\nname = \"plate\"\nshape = " << box(0, 4) << "\nmaterial = " << plate_material << "\ndescription = \""
         << (plate == Plate::updated ? "updated" : "total") << "_lagrangian\"\nwet = " << wet << '\n';
@@ -95,7 +102,11 @@ void Column::describe_plate(std::ostream& out) const {
 
 std::string Column::text() const {
   std::ostringstream out;
-  out << "end_time = 1e-3\nthreads = 1\ndimension = " << (line ? "\"plane\"" : std::to_string(dimension)) << '\n';
+  out << "end_time = 1e-3\nthreads = 1\ndimension = "
+      << (line    ? "\"plane\""
+          : round ? "\"axisymmetric\""
+                  : std::to_string(dimension))
+      << '\n';
   if (gravity) out << "gravity = " << point(0, -1e7) << '\n';
   out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n";
   if (plate != Plate::none) out << "[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
@@ -153,6 +164,7 @@ const std::vector<Feature>& features() {
          c.line = true;
          if (c.elements()) c.plate = Plate::total;
        }},
+      {"dimension", "meridian", [](Column& c) { c.round = true; }},
       plate(Plate::none, "water_alone"),
       plate(Plate::shell, "shell"),
       plate(Plate::total, "total_lagrangian"),
@@ -214,7 +226,7 @@ std::string fault_of(const Column& column, std::string& refusal) {
     const EnergyBalance balance = simulation.energy();
     double known = 0;  // what central differences hold back, by their own books (core/deformable_body.hpp)
     for (const auto& body : simulation.bodies()) known += body->ledger().integrator;
-    const int copies = column.mirrored ? 1 << (column.dimension - 1) : 1;
+    const int copies = column.mirrored && !column.round ? 1 << (column.dimension - 1) : 1;
     const double momentum = simulation.momentum_error(), energy = balance.error() + copies * known / balance.scale;
     if (!(simulation.mass_error() < 1e-12)) wrong << " mass " << simulation.mass_error();
     if (momentum > (column.scheme.at("precision") == "\"mixed\"" ? 1e-7 : 1e-11)) wrong << " momentum " << momentum;
