@@ -66,7 +66,7 @@ CASES = {
     "rigid_cylinder_spherical": rigid("spherical", 60 * US, fields=[20e-6]),
     "rigid_cylinder_monaghan": rigid("plain", 50 * US, changes={
         "scheme.name": "monaghan", "scheme.kernel": "gaussian", "resolution.lattice": "cartesian"}),
-    "rigid_cylinder_meridian": rigid("spherical", 125 * US, spacing=0.003, fields=[20e-6], changes={"dimension": "axisymmetric"}),
+    "rigid_cylinder_meridian": rigid("spherical", 60 * US, spacing=0.003, fields=[20e-6], changes={"dimension": "axisymmetric"}),
     "al_tube_fem_plain_tait": tube("al_tube_fem", "plain", "water-tait"),
     "al_tube_fem_spherical_tait": tube("al_tube_fem", "spherical", "water-tait"),
     "al_tube_fem_plain_steinberg": tube("al_tube_fem", "plain", "water-steinberg"),
