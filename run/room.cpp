@@ -62,12 +62,6 @@ double particles_lining(const sph::Wall& wall, const sph::Settings& fluid) {
   return (size(depth) - size(0)) / std::pow(dx, fluid.dimension);
 }
 
-/// Where a body of revolution begins along its axis [m].
-double low_of(const auto& mesh) {
-  if constexpr (requires { mesh.axis; }) return mesh.low;
-  else return 0.0;
-}
-
 double cells_of(const fem::Settings& structure) {
   double share = 1;
   const auto cut = [&](int axis, double low) {
@@ -76,9 +70,12 @@ double cells_of(const fem::Settings& structure) {
       share *= 0.5;
   };
   if (structure.axisymmetric) {
-    cut(1, std::visit([](const auto& mesh) { return low_of(mesh); }, structure.mesh));
-    if (const auto* tube = std::get_if<fem::TubeMesh>(&structure.mesh)) return share * tube->cells_through * tube->cells_along;
-    if (const auto* rod = std::get_if<fem::RodMesh>(&structure.mesh)) return share * rod->cells_radial * rod->cells_along;
+    const auto cells = [&](const auto& mesh, double across) {
+      cut(1, mesh.low);
+      return share * across * mesh.cells_along;
+    };
+    if (const auto* tube = std::get_if<fem::TubeMesh>(&structure.mesh)) return cells(*tube, tube->cells_through);
+    if (const auto* rod = std::get_if<fem::RodMesh>(&structure.mesh)) return cells(*rod, rod->cells_radial);
   }
   if (const auto* gmsh = std::get_if<fem::GmshMesh>(&structure.mesh)) return gmsh->read ? double(gmsh->read->cells.size()) : 0.0;
   std::visit(
