@@ -211,6 +211,15 @@ def against(run, other, limit, what):
 
 
 rayleigh = 0.91468 * 0.01 * np.sqrt(1000 / 10e6)
+def flies_apart(run):
+    """A ball in nothing stays one, and its fastest particle has less than 2 c/(gamma - 1)."""
+    f = run.snapshots()[-1][1]
+    width, height = np.sqrt((f["mass"] * f["x"] ** 2).sum() / 2), np.sqrt((f["mass"] * f["z"] ** 2).sum())
+    fastest = np.hypot(f["velocity_0"], f["velocity_2"]).max()
+    return [("as wide as high within 10 %", abs(width / height - 1) < 0.1, f"{width / height - 1:+.3f}"),
+            ("no faster than gas escapes, 74.5 m/s", fastest < 74.5, f"{fastest:.1f} m/s")]
+
+
 CASES = {
     "vacuum_barotropic": lambda run, get: vacuum(run, 2.0, np.sqrt(0.8), 2.0),
     "vacuum_ideal": lambda run, get: vacuum(run, 5 / 3, 1.0, 5.0),
@@ -230,6 +239,7 @@ CASES = {
     "axis_implosion": lambda run, get: implodes(run),
     "axis_charge_at_wall": lambda run, get: charge(run, "z"),
     "axis_jet": lambda run, get: closes(run, 0.01, 1.205 * rayleigh, 0.1, "z", ("x",)),
+    "axis_vacuum": lambda run, get: flies_apart(run),
     "axis_vessel": lambda run, get: encloses(run, 0.04),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
     "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall and plane"),

@@ -133,6 +133,13 @@ Ring between(const Ring* first, double t) {
 
 }  // namespace
 
+double ring_area(double volume, double r) {
+  using std::numbers::pi;
+  if (8.0 * pi * r * r * r >= volume) return volume / (2.0 * pi * r);
+  const double width = std::cbrt(volume / pi);
+  return width * width;
+}
+
 RingKernel::RingKernel(KernelName kernel, double eta) {
   const double support = with_kernel(kernel, [](auto k) { return k.support; });
   const auto sums = [&](double spacings) {
@@ -148,7 +155,7 @@ RingKernel::RingKernel(KernelName kernel, double eta) {
 
 Ring RingKernel::at(double r, double h) const {
   const double zeta = r / h, radian = 1.0 / (2.0 * std::numbers::pi);
-  if (zeta >= table_end) return {radian / r, -radian / (r * r)};
+  if (!(zeta < table_end)) return {radian / r, -radian / (r * r)};
   const int l = int(zeta * steps_per_h);
   const Ring ring = between(&table_[l + 1], zeta * steps_per_h - l);
   return {radian / h * ring.a, radian / (h * h) * ring.slope};

@@ -24,6 +24,10 @@ struct Ring {
   double slope;  ///< of a along r [1/m^2]
 };
 
+/// The area in the meridian [m^2] of a ring of that volume [m^3] and radius [m], a square. One that would reach across the axis
+/// is a disc, as high as its radius.
+double ring_area(double volume, double r);
+
 class RingKernel {
  public:
   /// For a kernel, of a scene with h = eta spacings.

@@ -69,6 +69,12 @@ struct Reconstruction {
     add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), V{}, pair, w.volume, si);
   }
 
+  /// Of the rows that `store` has written that of particle k, and by what the rates of its pairs with gas are divided.
+  UNDEX_INLINE static GradientRow& gradient_row(void* rows, std::uint32_t k) { return static_cast<GradientRow*>(rows)[k]; }
+  UNDEX_INLINE static float divisor(const void* rows, std::uint32_t k) {
+    return static_cast<const GradientRow*>(rows)[k].filling;
+  }
+
   /// Gradients of up to a vector of particles from their sums, in the order of Sums.
   void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
     GradientRow* out = static_cast<GradientRow*>(in.second) + first;

@@ -26,6 +26,16 @@ struct CorrectedReconstruction : Reconstruction<T> {
   using Base = Reconstruction<T>;
   using Base::Base;
 
+  /// See Reconstruction.
+  UNDEX_INLINE static GradientRow& gradient_row(void* rows, std::uint32_t k) {
+    return static_cast<CorrectedRow*>(rows)[k].gradient;
+  }
+  /// B is 1/f of the volumes in the plane.
+  UNDEX_INLINE static float divisor(const void* rows, std::uint32_t k) {
+    const auto& B = static_cast<const CorrectedRow*>(rows)[k].correction;
+    return 2.0f / (B[0] + B[1]);
+  }
+
   void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
     using D = Vec<double>;
     GradientRow plain[lanes<double>];
@@ -82,7 +92,7 @@ struct RiemannCorrected {
     return g;
   }
 
-  /// Of the kernel itself, which B does not correct.
+  /// Of what has no gradient for B to correct: the hoops of rings.
   UNDEX_INLINE static V filling_share(const State& i, const State& j) { return Plain::filling_share(i, j); }
 
   /// Returns p*.

@@ -4,9 +4,9 @@
 //   (d v_r/dt)_i  = -(1/rho_i) sum_j V_j p* w slope_i
 //   hoop_ij       = w/2 (slope_i v_ri + slope_j v_rj),       a part of the rate of volume like any other:
 //   (d rho/dt)_i  += -rho_i sum_j V_j hoop_ij,   (d e/dt)_i += -sum_j V_j p*/rho_i hoop_ij
-// with w = W over its lattice sum, and the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum along
-// the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it
-// with half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
+// with w = W over its lattice sum, divided by the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum
+// along the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it with
+// half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
 // would be turned round on its way back to the particle that it shows: i feels its own whole. So it is with the dummy particles
 // of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of
 // that n_r times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
@@ -44,7 +44,20 @@ struct WallOfRing : WallState<V> {
   }
 };
 
-/// Gradients are those of the meridian: areas for volumes.
+/// What a ring sees of the kernel at no distance, times h^2.
+inline double middle_of_kernel(const PairInput& in) {
+  const double shape = with_kernel(in.kernel.name, [](auto kernel) UNDEX_LAMBDA_INLINE {
+    double slope;
+    if constexpr (decltype(kernel)::needs_root) slope = kernel.template gradient_of_root<double>(0.0);
+    else slope = kernel.template gradient<double>(0.0);
+    return kernel.template shape_beside<double>(0.0, slope);
+  });
+  return in.shape_scale * in.kernel.norm * shape;
+}
+
+/// Gradients are those of the meridian: areas for volumes. The filling of gas is that by which the scheme's rates in the plane
+/// are divided, and at least what a ring claims by itself, V_i K_ii. It is its own neighbour: alone, with h at its bound, it
+/// would else grow by ever more.
 template <class T, template <class> class Gradients>
 struct GradientsOfRings : Gradients<T> {
   using V = Vec<T>;
@@ -64,6 +77,18 @@ struct GradientsOfRings : Gradients<T> {
       this->volume = this->area;
     }
   };
+
+  void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
+    Gradients<T>::store(s, gas, in, first, count);
+    if (!gas) return;
+    const double middle = middle_of_kernel(in);
+    for (std::uint32_t k = first; k < first + count; ++k) {
+      const FluidRow& own = in.fluid[k];
+      const float claim = float(own.volume * in.rings[k].a * middle / (own.h * own.h));
+      const float divisor = Gradients<T>::divisor(in.second, k);
+      Gradients<T>::gradient_row(in.second, k).filling = claim > divisor ? claim : divisor;
+    }
+  }
 };
 
 template <class T, template <class> class Scheme>

@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <numbers>
 #include <type_traits>
 
 #include "sph_fluid/lattice.hpp"
@@ -219,7 +218,9 @@ RingRow WallImages::ring_of(std::uint32_t c, const Particles& particles, const R
   });
   ring.slope *= ring.share;
   if (r != particles.x[image.owner]) {
-    row.vz = row.volume / (2.0 * std::numbers::pi * r);
+    // The area as the volume, but for the radius.
+    const FluidRow& owner = particles.predicted[image.owner];
+    row.vz = owner.vz * (row.volume / owner.volume) * (particles.x[image.owner] / r);
     ring.a = rings.at(r, row.h).a;
   }
   return ring;

@@ -165,7 +165,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
     if constexpr (requires { law.liquid_sound(); }) q.c = std::max(q.c, law.liquid_sound());
     q.h = group.h0;
     const double r = std::max(p.x[i], nearest);
-    if (rings_) q.vz = q.volume / (2.0 * std::numbers::pi * r);  // the area
+    if (rings_) q.vz = variable ? ring_area(q.volume, r) : q.volume / (2.0 * std::numbers::pi * r);
     if (variable) {
       const double wanted = std::pow((rings_ ? q.vz : q.volume) / cell, inverse_dimension);
       held += wanted < low || wanted > high;

@@ -54,6 +54,20 @@ void expect_exact(double eta) {
   }
 }
 
+/// The columns of a lattice have its cells. Nearer to the axis than half its width a ring is a disc, whatever its radius.
+TEST(RingArea, ARingThatReachesAcrossTheAxisIsADisc) {
+  const double dx = 0.003;
+  for (int k = 0; k < 3; ++k) {
+    const double r = (k + 0.5) * dx;
+    EXPECT_NEAR(ring_area(2.0 * pi * r * dx * dx, r), dx * dx, 1e-12 * dx * dx) << k;
+  }
+  for (const double r : {0.0, 1e-9 * dx, 0.1 * dx, 0.499 * dx})
+    EXPECT_NEAR(ring_area(pi * dx * dx * dx, r), dx * dx, 1e-12 * dx * dx) << r;
+  const double wide = 8.0 * pi * dx * dx * dx;  // a disc from a radius of dx on
+  EXPECT_NEAR(ring_area(wide, 1.001 * dx), 4.0 / 1.001 * dx * dx, 1e-12 * dx * dx);
+  EXPECT_NEAR(ring_area(wide, 0.999 * dx), 4.0 * dx * dx, 1e-12 * dx * dx);
+}
+
 TEST(RingKernel, IsExactOnItsLatticeForAnyKernel) {
   for (const KernelName name : all_kernels)
     with_kernel(name, [](auto kernel) {
