@@ -19,4 +19,13 @@ double density_at(const FluidLaw& law, double pressure, double energy) {
   return std::visit([&](const auto& l) { return l.density_at(pressure, energy); }, law);
 }
 
+double barotropic_energy(const FluidLaw& law, double rho) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (std::decay_t<decltype(l)>::uses_energy) return 0.0;
+        else return l.barotropic_energy(rho);
+      },
+      law);
+}
+
 }  // namespace undex::materials

@@ -51,5 +51,7 @@ double least_pressure(const FluidLaw& law);
 /// Density [kg/m^3] at which the law gives `pressure` [Pa] at specific energy `energy` [J/kg]; throws
 /// std::domain_error naming the law and the attainable range when there is none.
 double density_at(const FluidLaw& law, double pressure, double energy);
+/// Energy of compression [J/kg] of a barotropic law; 0 of others.
+double barotropic_energy(const FluidLaw& law, double rho);
 
 }  // namespace undex::materials

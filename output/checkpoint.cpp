@@ -73,32 +73,64 @@ void CheckpointTitle::visit_state(StateVisitor& state) {
   state("whole step", whole_step);
 }
 
-std::size_t write_checkpoint(const fs::path& folder, CheckpointTitle title, const VisitState& visit) {
-  const fs::path path = folder / checkpoint_names[0], before = folder / checkpoint_names[1];
+namespace {
+
+/// Writes a sealed file aside; `visit` names what it holds. Returns where it is, and its size.
+std::pair<fs::path, std::size_t> written_aside(const fs::path& path, const std::function<void(Writer&)>& visit) {
   const hdf5::File file = hdf5::File::create_in_memory(path);
   Writer writer(file);
   long version = format;
   writer("format", version);
-  writer.part("title", [&] { title.visit_state(writer); });
-  writer.part("state", [&] { visit(writer); });
+  visit(writer);
   const std::string_view image = file.image();
   const std::string seal = seal_of(image);
-  const fs::path temporary = write_temporary(path, {image, seal});
-  std::error_code ignored;
-  if (fs::exists(path, ignored)) put_in_place(path, before);
-  put_in_place(temporary, path);
-  return image.size() + seal.size();
+  return {write_temporary(path, {image, seal}), image.size() + seal.size()};
 }
 
-Checkpoint::Checkpoint(const fs::path& path) : path_(path) {
+/// Throws FileError unless the file is there and whole.
+void require_whole(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw FileError(path.string() + ": no such file");
   if (!is_sealed(path)) throw FileError(path.string() + ": the file is damaged");
-  const hdf5::File file = hdf5::File::open_to_read(path);
-  Reader reader(file, path_);
+}
+
+void require_format(Reader& reader, const fs::path& path) {
   long version = 0;
   reader("format", version);
   if (version != format) throw FileError(path.string() + ": another version of the program wrote it");
+}
+
+}  // namespace
+
+std::size_t write_checkpoint(const fs::path& folder, CheckpointTitle title, const VisitState& visit) {
+  const fs::path path = folder / checkpoint_names[0], before = folder / checkpoint_names[1];
+  const auto [temporary, size] = written_aside(path, [&](Writer& writer) {
+    writer.part("title", [&] { title.visit_state(writer); });
+    writer.part("state", [&] { visit(writer); });
+  });
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) put_in_place(path, before);
+  put_in_place(temporary, path);
+  return size;
+}
+
+void write_state(const fs::path& path, const VisitState& visit) {
+  put_in_place(written_aside(path, [&](Writer& writer) { visit(writer); }).first, path);
+}
+
+void read_state(const fs::path& path, const VisitState& visit) {
+  require_whole(path);
+  const hdf5::File file = hdf5::File::open_to_read(path);
+  Reader reader(file, path);
+  require_format(reader, path);
+  visit(reader);
+}
+
+Checkpoint::Checkpoint(const fs::path& path) : path_(path) {
+  require_whole(path);
+  const hdf5::File file = hdf5::File::open_to_read(path);
+  Reader reader(file, path_);
+  require_format(reader, path);
   reader.part("title", [&] { title_.visit_state(reader); });
 }
 

@@ -45,6 +45,11 @@ class Checkpoint {
   CheckpointTitle title_;
 };
 
+/// A sealed HDF5 file of any state, and back. Throws FileError; the latter where the file is absent, damaged, or holds other
+/// arrays.
+void write_state(const std::filesystem::path& path, const VisitState& visit);
+void read_state(const std::filesystem::path& path, const VisitState& visit);
+
 /// A checksum of a state's numbers, as 32 hexadecimal digits: equal for equal bits.
 std::string fingerprint(const VisitState& visit);
 

@@ -28,8 +28,8 @@ const struct {
   std::vector<const char*> names;
 } files_of_runs[] = {
     {"",
-     {"summary.json", "evidence.h5", "checkpoint*.h5", "outcome.json", "energy.csv", "profile.csv", "profile_exact.csv",
-      "comparison.csv", "curves.csv", "scene.toml", "resolved.toml", ".*.part"}},
+     {"summary.json", "evidence.h5", "checkpoint*.h5", "start.h5", "outcome.json", "energy.csv", "profile.csv",
+      "profile_exact.csv", "comparison.csv", "curves.csv", "scene.toml", "resolved.toml", ".*.part"}},
     {"history", {"*.csv"}},
     {"fields",
      {"particles.h5part", "solids.h5part", "solids[0-9]*.h5part", "structure_[0-9]*.hdf", "structure[0-9]*_[0-9]*.hdf",

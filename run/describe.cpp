@@ -9,9 +9,8 @@
 #include <cstdio>
 
 #include "run/simulation.hpp"
-#include "run/plane_wave_start.hpp"
 #include "run/room.hpp"
-#include "run/spherical_start.hpp"
+#include "run/starts.hpp"
 #include "scene/revolution.hpp"
 #include "core/shapes.hpp"
 
@@ -109,9 +108,8 @@ std::string describe(const scene::Scene& given) {
 
   text += expect_room(scene) + "\n";
   const auto before = Clock::now();
-  if (scene.start.kind == scene::Start::Kind::spherical) text += begin_spherically(scene) + "\n";
+  if (const std::string report = begin(scene); !report.empty()) text += report + "\n";
   const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
-  if (scene.start.kind == scene::Start::Kind::plane_wave) text += begin_with_plane_wave(scene) + "\n";
   Simulation simulation(scene);
   double memory = 0;
   if (const sph::Fluid* fluid = simulation.fluid()) {
@@ -149,7 +147,7 @@ std::string describe(const scene::Scene& given) {
   text += format("memory about %.0f MB\n", std::ceil(memory / 1e6));
   text += format("run time %s with %d threads, by the first steps%s; fields and histories not counted\n",
                  duration(left / pace + for_start).c_str(), omp_get_max_threads(),
-                 for_start > 1.0 ? format(" and %.0f s for the spherical start", for_start).c_str() : "");
+                 for_start > 1.0 ? format(" and %.0f s for the start", for_start).c_str() : "");
   return text;
 }
 

@@ -13,13 +13,13 @@
 #include "core/signals.hpp"
 #include "output/run_folder.hpp"
 #include "run/checkpoints.hpp"
+#include "run/laid_start.hpp"
 #include "run/observer.hpp"
-#include "run/plane_wave_start.hpp"
 #include "run/progress.hpp"
 #include "run/record.hpp"
 #include "run/room.hpp"
 #include "run/simulation.hpp"
-#include "run/spherical_start.hpp"
+#include "run/starts.hpp"
 
 namespace undex::run {
 namespace {
@@ -53,31 +53,6 @@ void expect_balance(const EnergyBalance& energy, const Simulation& simulation, b
                 "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
                 simulation.time(), 100.0 * energy.error(), simulation.fastest_particle().c_str());
   throw NumericalStop(text);
-}
-
-/// Says every few seconds how far the one-dimensional flow has come.
-class StartNews {
- public:
-  explicit StartNews(int verbosity) : quiet_(verbosity < 0) {}
-  void operator()(double time, double front, double obstacle) {
-    if (quiet_ || since_.wall() < next_) return;
-    next_ = since_.wall() + 2.0;
-    std::printf("spherical start: %.4g us, front at %.4g mm of %.4g mm\n", time * 1e6, front * 1e3, obstacle * 1e3);
-    std::fflush(stdout);
-  }
-
- private:
-  bool quiet_;
-  Stopwatch since_;
-  double next_ = 2.0;  // [s]
-};
-
-/// Lays the scene's start on its bodies, and says so.
-void begin(scene::Scene& scene, int verbosity) {
-  std::string report;
-  if (scene.start.kind == scene::Start::Kind::spherical) report = begin_spherically(scene, StartNews(verbosity));
-  if (scene.start.kind == scene::Start::Kind::plane_wave) report = begin_with_plane_wave(scene);
-  if (!report.empty() && verbosity >= 0) std::printf("%s\n", report.c_str());
 }
 
 struct End {
@@ -181,8 +156,14 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   const std::string resolved = scene::to_toml(scene);
   const bool goes_on = options.checkpoint != nullptr;
   expect_room(scene);
-  begin(scene, goes_on ? -1 : options.verbosity);
+  const bool quiet = goes_on || options.verbosity < 0;
+  const bool from_run = scene.start.kind == scene::Start::Kind::run;
+  if (!goes_on || !from_run || !take_start(options.output, scene)) {
+    const std::string report = begin(scene, {.quiet = quiet, .numerics = options.numerics, .output = options.output});
+    if (!report.empty() && !quiet) std::printf("%s\n", report.c_str());
+  }
   Simulation simulation(scene);
+  for (sph::Body& body : scene.fluid.bodies) body.start.reset();  // it may hold much
   const std::vector<std::string> warnings = warnings_of(scene, options.output);
   if (options.verbosity >= 0)
     for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -191,6 +172,7 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   catch_end_signals(remember_signal, /*second_kills=*/true);
   // The solvers have accepted the scene: nothing was written for one that they refuse.
   if (!goes_on) output::begin_run_folder(options.output, options.scene_text, resolved);
+  if (!goes_on && from_run) keep_start(simulation, options.output);
   Observer observer(scene, simulation, options.output, goes_on);
   Course course{.time = simulation.time()};
   Checkpoints checkpoints({simulation, observer, since, course.energy_off}, options.output, scene.output.checkpoint_interval,

@@ -107,6 +107,7 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 
 Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
   const scene::Scene solved = scene::for_solvers(scene);
+  copies_ = scene::mirror_copies(scene);
   build(solved);
   take_start(solved);
 }
@@ -155,10 +156,6 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
-  // A ring is whole, and of concentric spheres all is computed.
-  if (scene.geometry != scene::Geometry::spherical)
-    for (int a = meridian_ ? 1 : 0; a < 3; ++a)
-      if (scene.fluid.symmetry.axis[a]) copies_ *= 2;
   balanced_ = balanced_axes(scene);
   gravity_ = scene.fluid.gravity;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&

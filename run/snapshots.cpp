@@ -109,11 +109,11 @@ void Snapshots::visit_state(StateVisitor& state) {
   }
 }
 
-double Snapshots::next_after(double time) const {
+double next_snapshot_after(const scene::Output& output, double time) {
   const double beyond = time + 1e-12 * std::abs(time) + 1e-15;
   double next = std::numeric_limits<double>::infinity();
-  if (wanted_.field_interval > 0) next = (std::floor(beyond / wanted_.field_interval) + 1.0) * wanted_.field_interval;
-  for (const double at : wanted_.field_times)
+  if (output.field_interval > 0) next = (std::floor(beyond / output.field_interval) + 1.0) * output.field_interval;
+  for (const double at : output.field_times)
     if (at > beyond && at < next) next = at;
   return next;
 }

@@ -12,6 +12,9 @@
 
 namespace undex::run {
 
+/// The next time at which the output has a snapshot after `time` [s]; infinity when there is none.
+double next_snapshot_after(const scene::Output& output, double time);
+
 class Snapshots {
  public:
   /// Of the simulation, which must outlive it, into folder/fields. Where the run goes on, the files that are there are gone on
@@ -19,8 +22,7 @@ class Snapshots {
   Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
   /// A file that the checkpoint does not know (the scene wants fields now) is begun.
   void visit_state(StateVisitor& state);
-  /// The next time at which the scene wants a snapshot after `time` [s]; infinity when there is none.
-  double next_after(double time) const;
+  double next_after(double time) const { return next_snapshot_after(wanted_, time); }
   void write() { write(false); }
   /// The last sound state, after a NumericalStop, whether or not the scene asked for snapshots. A particle or cell of which a
   /// value is not finite all the same has `not_finite` = 1, and 0 stands for that value. False: the scene wants no fields of

@@ -12,6 +12,8 @@ namespace {
   throw SceneError(scene.file.string(), {{{}, "start.kind = \"spherical\": " + why}});
 }
 
+const Sphere& sphere_of(const sph::Body& charge) { return std::get<Sphere>(charge.shape.base); }
+
 exact::Layer layer_of(const sph::Body& body, double inner, double outer, int cells) {
   exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer, .cells = cells};
   layer.density = start_density(body);
@@ -20,7 +22,7 @@ exact::Layer layer_of(const sph::Body& body, double inner, double outer, int cel
 }
 
 std::vector<exact::Layer> layers_of(const sph::Body& charge, const sph::Body& medium, double outer, int charge_cells) {
-  const double radius = std::get<Sphere>(charge.shape.base).radius, cell = radius / charge_cells, length = outer - radius;
+  const double radius = sphere_of(charge).radius, cell = radius / charge_cells, length = outer - radius;
   // w(r) = w (a + r)/(2 a) sums up to `length` in so many cells.
   const int cells = std::max(2, int(std::lround(2.0 * charge_cells * std::log1p(length / (2.0 * radius)))));
   std::vector<exact::Layer> layers{layer_of(charge, 0.0, radius, charge_cells), layer_of(medium, radius, outer, cells)};
@@ -35,39 +37,48 @@ std::vector<exact::Layer> layers_of(const sph::Body& charge, const sph::Body& me
 
 }  // namespace
 
-std::size_t charge_of(const scene::Scene& scene) {
+std::vector<std::size_t> charges_of(const scene::Scene& scene) {
   const auto& bodies = scene.fluid.bodies;
-  std::size_t charge = bodies.size();
+  std::vector<std::size_t> charges;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const sph::Body& body = bodies[i];
     if (!scene.start.body.empty() ? body.name != scene.start.body : !body.variable_h) continue;
-    if (!std::holds_alternative<Sphere>(body.shape.base) || !body.shape.removed.empty()) continue;
-    if (charge < bodies.size())
-      refuse(scene, "bodies '" + bodies[charge].name + "' and '" + body.name + "' are both spherical; name one by start.body");
-    charge = i;
+    if (std::holds_alternative<Sphere>(body.shape.base) && body.shape.removed.empty()) charges.push_back(i);
   }
-  if (charge == bodies.size())
-    refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
-  return charge;
+  return charges;
 }
 
-std::size_t medium_of(const scene::Scene& scene) {
-  const Sphere sphere = spherical_charge(scene);
+std::size_t charge_of(const scene::Scene& scene) {
   const auto& bodies = scene.fluid.bodies;
+  const std::vector<std::size_t> charges = charges_of(scene);
+  if (charges.empty())
+    refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
+  if (charges.size() > 1)
+    refuse(scene, "bodies '" + bodies[charges[0]].name + "' and '" + bodies[charges[1]].name +
+                      "' are both spherical; name one by start.body");
+  return charges.front();
+}
+
+std::size_t medium_of(const scene::Scene& scene, std::size_t charge) {
+  const auto& bodies = scene.fluid.bodies;
+  const Sphere& sphere = sphere_of(bodies[charge]);
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (const Primitive& hole : bodies[i].shape.removed)
       if (const auto* other = std::get_if<Sphere>(&hole);
           other && other->center == sphere.center && other->radius == sphere.radius)
         return i;
-  refuse(scene, "no body surrounds the charge; the medium's `subtract` must name it");
+  refuse(scene, "no body surrounds the charge '" + bodies[charge].name + "'; the medium's `subtract` must name it");
 }
 
-Sphere spherical_charge(const scene::Scene& scene) { return std::get<Sphere>(scene.fluid.bodies[charge_of(scene)].shape.base); }
+Sphere spherical_charge(const scene::Scene& scene) { return sphere_of(scene.fluid.bodies[charge_of(scene)]); }
 
 SphericalFlow::SphericalFlow(const scene::Scene& scene, double outer, int charge_cells)
-    : charge_radius_(spherical_charge(scene).radius),
+    : SphericalFlow(scene, charge_of(scene), outer, charge_cells) {}
+
+SphericalFlow::SphericalFlow(const scene::Scene& scene, std::size_t charge, double outer, int charge_cells)
+    : charge_radius_(sphere_of(scene.fluid.bodies[charge]).radius),
       charge_cell_(charge_radius_ / charge_cells),
-      mesh_(3, layers_of(scene.fluid.bodies[charge_of(scene)], scene.fluid.bodies[medium_of(scene)], outer, charge_cells),
+      mesh_(3, layers_of(scene.fluid.bodies[charge], scene.fluid.bodies[medium_of(scene, charge)], outer, charge_cells),
             exact::Boundary::rigid, exact::Boundary::transmitting),
       threshold_(1e6),
       merged_at_(charge_radius_) {

@@ -10,9 +10,11 @@
 
 namespace undex::run {
 
-/// The scene's spherical charge and the body round it (indices). Throws SceneError where there is none.
+/// The scene's spherical charges: that which start.body names, or all of gas or products (indices).
+std::vector<std::size_t> charges_of(const scene::Scene& scene);
+/// The only one, and the body round a charge (indices). Throws SceneError where there is none.
 std::size_t charge_of(const scene::Scene& scene);
-std::size_t medium_of(const scene::Scene& scene);
+std::size_t medium_of(const scene::Scene& scene, std::size_t charge);
 
 /// The charge as it is at time zero. Throws SceneError where there is none.
 Sphere spherical_charge(const scene::Scene& scene);
@@ -21,6 +23,8 @@ class SphericalFlow {
  public:
   /// Medium out to the radius `outer` [m], where the wave passes. Throws SceneError where the scene has no spherical charge.
   SphericalFlow(const scene::Scene& scene, double outer, int charge_cells);
+  /// The same of one of several charges (index).
+  SphericalFlow(const scene::Scene& scene, std::size_t charge, double outer, int charge_cells);
 
   /// To exactly t [s]; cells are merged on the way.
   void advance(double t);

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "run/spherical_flow.hpp"
+#include "run/spherical_state.hpp"
 #include "scene/numbers.hpp"
-#include "scene/revolution.hpp"
 #include "sph_fluid/lattice.hpp"
 
 namespace undex::run {
@@ -16,13 +17,8 @@ namespace {
 constexpr int cells_in_charge = 250;
 
 [[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
-  throw SceneError(scene.file.string(), {scene.places.finding("start.kind", "start.kind = \"spherical\": " + why)});
-}
-
-/// At the start [Pa].
-double pressure_of(const sph::Body& body) {
-  const double rho = start_density(body), energy = start_energy(body);
-  return std::visit([&](const auto& law) { return law.evaluate(rho, energy).pressure; }, body.material.law);
+  throw SceneError(scene.file.string(), {scene.places.finding("start.kind", std::string("start.kind = \"") +
+                                                                                word_of(scene.start.kind) + "\": " + why)});
 }
 
 bool same_sphere(const Primitive& shape, const Sphere& sphere) {
@@ -37,49 +33,107 @@ double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, con
     if (!same_sphere(hole, sphere)) distance = std::min(distance, signed_distance(hole, sphere.center, 3));
   for (const sph::Body& body : scene.fluid.bodies)
     if (&body != &charge && &body != &medium) distance = std::min(distance, signed_distance(body.shape, sphere.center, 3));
+  for (int a = 0; a < 3; ++a)  // a plane beside the charge mirrors it
+    if (scene.fluid.symmetry.axis[a] && sphere.center[a] > 0.0) distance = std::min(distance, sphere.center[a]);
   return distance;
 }
 
-/// State, mass and energies of one layer of the mesh for the particles of one body. `share`: kept part of the sphere.
-std::shared_ptr<const sph::StartField> field_of(std::shared_ptr<const exact::Lagrangian1D> flow, int layer, const Vec3& center,
-                                                const sph::Body& body, double kept_mass, double share) {
-  auto field = std::make_shared<sph::StartField>();
-  const double at_rest = start_density(body), energy_at_rest = start_energy(body);
-  const double mesh_end = flow->node_radius().back();
-  field->state = [=](const Vec3& x, double spacing) {
-    const double r = (x - center).norm();
-    const double from = std::max(0.0, r - 0.5 * spacing), to = r + 0.5 * spacing;
-    const exact::IntervalIntegral part = flow->integral(from, to, layer);
-    sph::StartState state{at_rest, energy_at_rest, Vec3::Zero()};
-    if (to > mesh_end || part.mass <= 0) return state;  // beyond the mesh nothing has arrived
-    state.density = part.density();
-    state.energy = part.energy_with_lost_motion();
-    state.velocity = part.velocity() / std::max(r, 1e-30) * (x - center);
-    return state;
+/// A charge and its flow.
+struct Charge {
+  std::size_t body;
+  Sphere sphere;
+  double share;       // that symmetry planes keep
+  double obstacle;    // distance from its center [m]
+  double last_front;  // beyond which it is too near to the obstacle [m]
+  std::shared_ptr<SphericalFlow> flow = nullptr;
+};
+
+Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t medium, double reach) {
+  const sph::Body& body = scene.fluid.bodies[index];
+  const Sphere sphere = std::get<Sphere>(body.shape.base);
+  const std::optional<double> share = kept_share(scene, sphere.center);
+  for (int a = 0; a < 3; ++a)
+    if (scene.fluid.symmetry.axis[a] && sphere.center[a] != 0.0 && sphere.center[a] < sphere.radius)
+      refuse(scene,
+             "the center of '" + body.name +
+                 "' must lie on every symmetry plane, or so far from it, on the kept side, that the plane does not cut the "
+                 "charge");
+  if (body.burn && !body.burn->instantaneous && body.burn->origin != sphere.center)
+    refuse(scene, "'" + body.name + "' must burn from its center");
+  const double obstacle = obstacle_distance(scene, body, scene.fluid.bodies[medium], sphere);
+  const double last_front = obstacle - reach - scene.fluid.lattice.spacing;
+  if (last_front <= sphere.radius)
+    refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
+  return {index, sphere, share.value(), obstacle, last_front};
+}
+
+/// The room left between the waves of two charges [m].
+double room_between(const Charge& one, const Charge& other) {
+  return (one.sphere.center - other.sphere.center).norm() - one.flow->front() - other.flow->front();
+}
+
+/// The least of that of any two; of one charge no end of it.
+double least_room(const std::vector<Charge>& charges) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < charges.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) least = std::min(least, room_between(charges[i], charges[k]));
+  return least;
+}
+
+/// Every flow to the time when the particles take over.
+void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charges, StartNews& news) {
+  const double spacing = scene.fluid.lattice.spacing;
+  double stride = std::numeric_limits<double>::infinity();  // a hundredth of the way at about the speed of sound
+  for (const Charge& charge : charges) stride = std::min(stride, (charge.last_front - charge.sphere.radius) / 2e5);
+  const auto time = [&] { return charges.front().flow->time(); };
+  const auto nears = [&](const Charge& charge) { return charge.flow->front() >= charge.last_front - 0.5 * spacing; };
+  const auto there = [&] {
+    if (scene.start.time) return time() >= *scene.start.time;
+    return std::any_of(charges.begin(), charges.end(), nears) || least_room(charges) <= 2.0 * reach + 3.0 * spacing;
   };
-  const exact::IntervalIntegral whole = flow->integral(0.0, mesh_end, layer);
-  field->mass = kept_mass;
-  field->kinetic_energy = share * whole.kinetic_energy;
-  field->internal_energy = share * whole.internal_energy + (kept_mass - share * whole.mass) * energy_at_rest;
-  return field;
+  while (!there()) {
+    const double next = time() + stride;
+    for (const Charge& charge : charges) charge.flow->advance(scene.start.time ? std::min(next, *scene.start.time) : next);
+    if (scene.start.time) {
+      for (const Charge& charge : charges)
+        if (charge.flow->front() > charge.obstacle - 0.5 * reach)
+          refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
+      if (least_room(charges) < reach)
+        refuse(scene, "at start.time the waves of two charges have met; take an earlier time or leave it out");
+    }
+    if (time() >= scene.end_time) refuse(scene, "end_time comes before the start");
+    news([&] {
+      const SphericalFlow& flow = *charges.front().flow;
+      char text[200];
+      std::snprintf(text, sizeof text, "spherical start: %.4g us, front at %.4g mm of %.4g mm", flow.time() * 1e6,
+                    flow.front() * 1e3, charges.front().obstacle * 1e3);
+      return std::string(text);
+    });
+  }
 }
 
 }  // namespace
 
-/// Until the particles take over nothing but the charge's flow is computed: all else must stay as it is until then.
-void require_rest(const scene::Scene& scene, const sph::Body& charge, const sph::Body& medium, double rest) {
+double start_pressure(const sph::Body& body) {
+  const double rho = start_density(body), energy = start_energy(body);
+  return std::visit([&](const auto& law) { return law.evaluate(rho, energy).pressure; }, body.material.law);
+}
+
+void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, double rest) {
   const auto is_rest = [&](double p) { return std::abs(p - rest) <= 1e-3 * std::abs(rest) + 1.0; };
   const std::string remedy =
       " until the particles take over, for only the charge's flow is computed; take start.kind = \"plain\"";
-  for (const sph::Body& body : scene.fluid.bodies) {
+  const std::vector<sph::Body>& bodies = scene.fluid.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const sph::Body& body = bodies[b];
     if (body.velocity.norm() > 0 || body.radial_velocity != 0)
       refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
-    if (&body == &charge || &body == &medium) continue;
+    if (std::find(in_motion.begin(), in_motion.end(), b) != in_motion.end()) continue;
     if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
-    const double p = pressure_of(body);
+    const double p = start_pressure(body);
     if (!is_rest(p))
-      refuse(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium '" + medium.name + "' at " +
-                        scene::rounded(rest) + " Pa, but all else must stay at rest" + remedy);
+      refuse(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium at " + scene::rounded(rest) +
+                        " Pa, but all else must stay at rest" + remedy);
   }
   for (const solid::Body& solid : scene.solids.bodies) {
     if (solid.velocity.norm() > 0 || solid.spin.norm() > 0) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
@@ -97,61 +151,53 @@ void require_rest(const scene::Scene& scene, const sph::Body& charge, const sph:
                           " Pa, but all else must stay at rest" + remedy);
 }
 
-std::string begin_spherically(scene::Scene& scene, const StartProgress& progress) {
+std::string begin_spherically(scene::Scene& scene, StartNews news) {
   sph::Settings& fluid = scene.fluid;
-  sph::Body& charge = fluid.bodies[charge_of(scene)];
-  sph::Body& medium = fluid.bodies[medium_of(scene)];
-  const Sphere sphere = std::get<Sphere>(charge.shape.base);
-  double share = 1.0;
-  for (int a = 0; a < 3; ++a)
-    if (fluid.symmetry.axis[a]) {
-      share *= 0.5;
-      if (sphere.center[a] != 0.0) refuse(scene, "the center of '" + charge.name + "' must lie on every symmetry plane");
-    }
-  require_rest(scene, charge, medium, pressure_of(medium));
-  if (charge.burn && !charge.burn->instantaneous && charge.burn->origin != sphere.center)
-    refuse(scene, "'" + charge.name + "' must burn from its center");
+  std::vector<std::size_t> indices = charges_of(scene);
+  if (indices.empty()) indices = {charge_of(scene)};  // says what is missing
+  const std::size_t medium = medium_of(scene, indices.front());
+  for (const std::size_t index : indices)
+    if (medium_of(scene, index) != medium)
+      refuse(scene, "'" + fluid.bodies[indices.front()].name + "' and '" + fluid.bodies[index].name +
+                        "' lie in different bodies; name one by start.body, or take start.kind = \"plain\"");
+  std::vector<std::size_t> in_motion = indices;
+  in_motion.push_back(medium);
+  require_rest(scene, in_motion, start_pressure(fluid.bodies[medium]));
   if (scene.start.time && *scene.start.time >= scene.end_time) refuse(scene, "end_time comes before the start");
 
-  const double obstacle = obstacle_distance(scene, charge, medium, sphere);
   const double reach = sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing);
-  const double last_front = obstacle - reach - fluid.lattice.spacing;
-  if (last_front <= sphere.radius)
-    refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
-  const auto computed = std::make_shared<SphericalFlow>(scene, obstacle, cells_in_charge);
-  const double goal = last_front - 0.5 * fluid.lattice.spacing;
-  const double stride = (last_front - sphere.radius) / 2e5;  // a hundredth of the way at about the speed of sound
-  while (scene.start.time ? computed->time() < *scene.start.time : computed->front() < goal) {
-    const double next = computed->time() + stride;
-    computed->advance(scene.start.time ? std::min(next, *scene.start.time) : next);
-    if (scene.start.time && computed->front() > obstacle - 0.5 * reach)
-      refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
-    if (computed->time() >= scene.end_time) refuse(scene, "end_time comes before the start");
-    if (progress) progress(computed->time(), computed->front(), obstacle);
+  std::vector<Charge> charges;
+  for (const std::size_t index : indices) charges.push_back(charge_in(scene, index, medium, reach));
+  for (Charge& charge : charges)
+    charge.flow = std::make_shared<SphericalFlow>(scene, charge.body, charge.obstacle, cells_in_charge);
+  advance(scene, reach, charges, news);
+
+  std::string text;
+  std::vector<SphericalState> states;
+  for (const Charge& charge : charges) {
+    const SphericalFlow& flow = *charge.flow;
+    const std::string& name = fluid.bodies[charge.body].name;
+    if (charges.size() > 1 && flow.front() <= charge.sphere.radius)
+      refuse(scene, "the waves of two charges meet before '" + name + "' has burned; take start.kind = \"plain\"");
+    const double radius = flow.mesh().interface_radius(0);
+    for (const std::size_t index : {charge.body, medium})
+      if (const auto& spacing = fluid.bodies[index].spacing; spacing && *spacing > radius)
+        refuse(scene, "the spacing of '" + fluid.bodies[index].name + "' exceeds the charge");
+    states.push_back({.flow = {charge.flow, &flow.mesh()},
+                      .center = charge.sphere.center,
+                      .front = flow.front(),
+                      .bodies = {charge.body, medium},
+                      .share = charge.share});
+    char line[300];
+    std::snprintf(line, sizeof line,
+                  "%sspherical start: %ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
+                  text.empty() ? "" : "\n", flow.mesh().steps(), flow.time() * 1e6, flow.front() * 1e3, charge.obstacle * 1e3,
+                  name.c_str(), charge.sphere.radius * 1e3, radius * 1e3);
+    text += line;
   }
-  const double front = computed->front();
-  const std::shared_ptr<const exact::Lagrangian1D> flow(computed, &computed->mesh());
-
-  const double radius = flow->interface_radius(0);
-  for (const sph::Body* body : {&charge, &medium})
-    if (body->spacing && *body->spacing > radius) refuse(scene, "the spacing of '" + body->name + "' exceeds the charge");
-  const double medium_mass = start_density(medium) * scene::kept_volume(medium.shape, scene);
-  const double charge_mass = share * start_density(charge) * 4.0 / 3.0 * M_PI * std::pow(sphere.radius, 3);
-  charge.start = field_of(flow, 0, sphere.center, charge, charge_mass, share);
-  medium.start = field_of(flow, 1, sphere.center, medium, medium_mass, share);
-  charge.burn.reset();  // it has burned
-  const Sphere grown{sphere.center, radius};
-  charge.shape.base = grown;
-  for (Primitive& hole : medium.shape.removed)
-    if (same_sphere(hole, sphere)) hole = grown;
-  fluid.start_time = flow->time();
-  if (scene.structure) scene.structure->start_time = flow->time();
-  fluid.heat_before = share * flow->barotropic_heat();
-
-  char text[300];
-  std::snprintf(
-      text, sizeof text, "spherical start: %ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
-      flow->steps(), flow->time() * 1e6, front * 1e3, obstacle * 1e3, charge.name.c_str(), sphere.radius * 1e3, radius * 1e3);
+  lay(states, charges.size() > 1, scene);
+  fluid.start_time = charges.front().flow->time();
+  if (scene.structure) scene.structure->start_time = fluid.start_time;
   return text;
 }
 

@@ -68,7 +68,7 @@ void check_wave(const TableReader& table, const TableReader& top, Draft& draft) 
     if (!asked && table.has(key))
       table.complain(key, table.path_of(key) + " is of start.kind = \"plane_wave\"; leave it out or set the kind");
   if (!asked) return;
-  if (table.has("time")) table.complain("time", "start.time is of start.kind = \"spherical\"; leave it out");
+  if (table.has("time")) table.complain("time", "start.time is of start.kind = \"spherical\" and \"run\"; leave it out");
   const Node* axis = table.find("axis");
   const bool axis_good = axis && axis->text == axis_name(wave.axis);
   if (axis_good && wave.axis >= top.dimension())
@@ -92,6 +92,22 @@ void check_wave(const TableReader& table, const TableReader& top, Draft& draft) 
       table.complain("body", "start.kind = \"plane_wave\": bodies." + body.name + " must be at rest and not burn");
 }
 
+/// A scene or a run's folder to begin from, given relative to the scene file. Whether it is there is asked when it is wanted: a
+/// run that is gone on with needs it no more.
+void check_donor(const TableReader& table, Draft& draft) {
+  Start& start = draft.scene.start;
+  if (start.kind != Start::Kind::run) {
+    if (table.has("from")) table.complain("from", "start.from is of start.kind = \"run\"; leave it out or set the kind");
+    return;
+  }
+  if (draft.scene.fluid.bodies.empty())
+    table.complain("kind", "start.kind = \"run\" lays the state of one fluid on another, and the scene has no [[bodies]]");
+  if (table.has("body"))
+    table.complain("body", "start.body is not of start.kind = \"run\", which takes all bodies; leave it out");
+  if (start.from.empty()) return;
+  start.from = std::filesystem::absolute(draft.scene.file.parent_path() / start.from).lexically_normal().string();
+}
+
 void read_start(const TableReader& top, Draft& draft) {
   Start& start = draft.scene.start;
   const Node* node = top.table("start");
@@ -106,6 +122,7 @@ void read_start(const TableReader& top, Draft& draft) {
   }
   if (start.kind == Start::Kind::spherical && top.dimension() != 3)
     table.complain("kind", "start.kind = \"spherical\" needs dimension = 3");
+  check_donor(table, draft);
   check_wave(table, top, draft);
 }
 

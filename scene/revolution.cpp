@@ -183,6 +183,13 @@ std::shared_ptr<const sph::StartField> meridian_of(std::shared_ptr<const sph::St
     state.velocity = line.vector(state.velocity, outward);
     return state;
   };
+  if (start->covers) {
+    field->covers = [start, line](const Vec3& x) { return start->covers(line.place_in_space(x, line.outward())); };
+    const Vec3 farthest =
+        across((start->box.low - line.center).cwiseAbs().cwiseMax((start->box.high - line.center).cwiseAbs()), line.axis);
+    field->box = {Vec3(0.0, start->box.low[line.axis], 0.0), Vec3(farthest.norm(), start->box.high[line.axis], 0.0)};
+  }
+  field->momentum = Vec3(0.0, start->momentum[line.axis], 0.0);
   return field;
 }
 
@@ -294,6 +301,14 @@ double kept_volume(const Shape& shape, const Scene& scene) {
   const Shape meridian = meridian_of(shape, *scene.meridian);
   const bool halved = fluid.symmetry.axis[static_cast<std::size_t>(scene.meridian->axis)];
   return volume_of_revolution(meridian, kept(bounds(meridian, 2), {true, halved, false}));
+}
+
+int mirror_copies(const Scene& scene) {
+  if (scene.geometry == Geometry::spherical) return 1;  // of concentric spheres all is computed
+  int copies = 1;
+  for (const bool plane : scene.fluid.symmetry.axis)
+    if (plane) copies *= 2;
+  return copies;
 }
 
 Scene for_solvers(const Scene& scene) {

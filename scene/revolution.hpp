@@ -26,6 +26,9 @@ int likeliest_axis(const Scene& scene);
 /// Volume [m^3] of the part of a shape that the scene's symmetry planes keep; in one and two dimensions length and area.
 double kept_volume(const Shape& shape, const Scene& scene);
 
+/// How many mirror images of what is computed, itself included, make the whole that the scene stands for.
+int mirror_copies(const Scene& scene);
+
 /// What the solvers compute: an axisymmetric scene in its meridian (x: distance from the axis, y: along it), any other as it is.
 Scene for_solvers(const Scene& scene);
 

@@ -24,14 +24,16 @@ namespace undex::scene {
 struct Start {
   /// plain: every body uniform at time zero. spherical: until the wave from a spherical charge (or bubble) nears the first
   /// obstacle, the flow is one-dimensional: it is computed on a fine one-dimensional mesh and laid on the particles then.
-  /// plane_wave: one body carries a plane wave at time zero.
-  enum class Kind { plain, spherical, plane_wave };
+  /// plane_wave: one body carries a plane wave at time zero. run: from the state that the run of another scene has come to.
+  enum class Kind { plain, spherical, plane_wave, run };
   friend constexpr auto words(Kind) {
-    return std::to_array<Word<Kind>>({{"plain", Kind::plain}, {"spherical", Kind::spherical}, {"plane_wave", Kind::plane_wave}});
+    return std::to_array<Word<Kind>>(
+        {{"plain", Kind::plain}, {"spherical", Kind::spherical}, {"plane_wave", Kind::plane_wave}, {"run", Kind::run}});
   }
   Kind kind = Kind::plain;
-  std::string body;            ///< the charge, or the body that carries the wave; default: the only spherical body of gas or
+  std::string body;            ///< the charge, or the body that carries the wave; default: all spherical bodies of gas or
                                ///< products, the only body
+  std::string from;            ///< of kind run: the scene file, or a run's folder
   std::optional<double> time;  ///< [s] when particles take over; default: when the front is a kernel's reach from the obstacle
   struct Wave {
     int axis = 2;        ///< along which it runs
@@ -46,20 +48,26 @@ template <class Visit>
 void describe(Start& start, Visit&& visit) {
   visit(start.kind,
         {.name = "kind",
-         .meaning = "every body uniform at time zero; or the flow of a spherical charge computed on a fine one-dimensional "
-                    "mesh until its wave nears the first obstacle, and laid on the particles then; or one body carries a "
-                    "plane wave at time zero"});
-  const bool wave = start.kind == Start::Kind::plane_wave;
+         .meaning = "every body uniform at time zero; or the flow of spherical charges computed on fine one-dimensional "
+                    "meshes until a wave nears the first obstacle, and laid on the particles then; or one body carries a "
+                    "plane wave at time zero; or the state of a simpler run"});
+  const bool wave = start.kind == Start::Kind::plane_wave, run = start.kind == Start::Kind::run;
   visit(start.body, {.name = "body",
-                     .rule = "the only spherical gas or charge; the only body",
+                     .rule = "all spherical gas and charges; the only body",
                      .values = "a body",
                      .used = !start.body.empty(),
                      .meaning = "the charge, the body round it is the medium; or the body that carries the wave"});
+  visit(start.from, {.name = "from",
+                     .needed = true,
+                     .remedy = "name the scene, or the folder of a run, that it begins from, relative to this file",
+                     .values = "a scene (file or folder) or a run's folder",
+                     .used = run,
+                     .meaning = "\"run\": whose state it begins from"});
   visit(start.time, {.name = "time",
                      .unit = "s",
                      .range = Range::above(0, 1e3),
                      .rule = "when the front is a kernel's reach from the obstacle",
-                     .meaning = "\"spherical\": when the particles take over"});
+                     .meaning = "\"spherical\", \"run\": when the particles take over"});
   visit(start.wave.axis, {.name = "axis",
                           .needed = true,
                           .remedy = "name the axis along which the wave runs",
@@ -248,7 +256,7 @@ void describe(Scene& scene, Visit&& visit) {
         {.name = "gravity",
          .unit = "m/s^2",
          .meaning = "acts on fluid, structure and solids; not across a symmetry plane that cuts any of them, nor with "
-                    "`start.kind` \"spherical\""});
+                    "`start.kind` \"spherical\" or \"run\""});
   for (const char* table : {"resolution", "symmetry", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
                             "solid_scheme", "planes", "coupling", "probes", "output", "comparison"})
     visit(ByHand{}, {.name = table});

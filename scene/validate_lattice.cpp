@@ -20,6 +20,9 @@ void Validator::gravity() {
   if (scene_.start.kind == Start::Kind::spherical)
     complain(draft_.root, "gravity",
              "gravity does not go with start.kind = \"spherical\", whose flow is computed without it; take \"plain\"");
+  if (scene_.start.kind == Start::Kind::run)
+    complain(draft_.root, "gravity",
+             "gravity does not go with start.kind = \"run\": what lies beyond the wave must be uniform at rest; leave it out");
 }
 
 void Validator::lattice() {

@@ -36,9 +36,10 @@ void Validator::off_the_line(const std::string& words) {
   if (!draft_.plane_nodes.empty())
     draft_.report.add(*draft_.plane_nodes[0], "[[planes]] do not go with " + words + "; take [[walls]] at an end");
   if (const Node* start = draft_.root.find("start")) {
-    if (scene_.start.kind == Start::Kind::spherical)
+    if (scene_.start.kind == Start::Kind::spherical || scene_.start.kind == Start::Kind::run)
       complain(*start, "kind",
-               "start.kind = \"spherical\" means nothing with " + words + ": the whole run is one-dimensional; leave it out");
+               std::string("start.kind = \"") + word_of(scene_.start.kind) + "\" means nothing with " + words +
+                   ": the whole run is one-dimensional; leave it out");
     if (scene_.start.kind == Start::Kind::plane_wave && (spherical || scene_.start.wave.axis != 0))
       complain(*start, "kind", "start.kind = \"plane_wave\" needs dimension = \"plane\" and axis = \"x\"");
   }

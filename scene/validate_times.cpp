@@ -56,13 +56,15 @@ void Validator::times() {
 /// By start.time the wave must not have reached the obstacle, and it runs faster than sound.
 void Validator::start_time() {
   const Node* node = draft_.root.find("start");
-  if (!node || scene_.start.kind != Start::Kind::spherical || !scene_.start.time || !all_usable()) return;
+  const bool spherical = scene_.start.kind == Start::Kind::spherical;
+  if (!node || (!spherical && scene_.start.kind != Start::Kind::run) || !scene_.start.time || !all_usable()) return;
   const double time = *scene_.start.time;
   if (time >= scene_.end_time) {
     complain(*node, "time",
              "start.time = " + shortest(time) + " [s] must come before end_time = " + shortest(scene_.end_time) + " [s]");
     return;
   }
+  if (!spherical) return;
   for (const sph::Body& charge : fluid_.bodies) {
     const auto* sphere = std::get_if<Sphere>(&charge.shape.base);
     if (!sphere || (scene_.start.body.empty() ? !charge.variable_h : charge.name != scene_.start.body)) continue;

@@ -28,18 +28,30 @@ double kernel_support(KernelName kernel) {
 
 double smoothing_length(const Settings& settings, double spacing) { return settings.numerics.eta * spacing; }
 
-BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
-  const Bounds box = bounds(shape, settings.dimension);
+namespace {
+
+/// The points of a grid in a box that `inside` holds, with the volumes of their cells (axisymmetric: rings).
+BodyParticles points_inside(const Grid& grid, const Settings& settings, const Bounds& box,
+                            const std::function<bool(const Vec3&)>& inside, const std::string& who) {
   BodyParticles out;
-  double sum = 0;
   walk(grid, settings, box, [&](const Vec3& x, double cell_volume) {
-    if (signed_distance(shape, x, settings.dimension) >= 0.0) return;
+    if (!inside(x)) return;
     out.position.push_back(x);
     out.volume.push_back(settings.axisymmetric ? 2.0 * std::numbers::pi * x[0] * cell_volume : cell_volume);
-    sum += out.volume.back();
   });
   if (out.position.empty())
     throw std::invalid_argument(who + " gets no particle: it is smaller than the spacing or lies outside the kept part");
+  return out;
+}
+
+}  // namespace
+
+BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
+  const Bounds box = bounds(shape, settings.dimension);
+  const auto inside = [&](const Vec3& x) { return signed_distance(shape, x, settings.dimension) < 0.0; };
+  BodyParticles out = points_inside(grid, settings, box, inside, who);
+  double sum = 0;
+  for (const double cell_volume : out.volume) sum += cell_volume;
   const Bounds kept = kept_window(settings, box);
   const double scale =
       (settings.axisymmetric ? volume_of_revolution(shape, kept) : volume(shape, kept, settings.dimension)) / sum;
@@ -49,8 +61,17 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
 
 std::vector<BodyParticles> fill_bodies(const Settings& settings) {
   std::vector<BodyParticles> result;
-  for (const Body& body : settings.bodies)
-    result.push_back(fill(body_grid(settings, body), settings, body.shape, "body '" + body.name + "'"));
+  for (const Body& body : settings.bodies) {
+    const Grid grid = body_grid(settings, body);
+    const std::string who = "body '" + body.name + "'";
+    if (body.start && !body.start->laid.position.empty()) {
+      const LaidParticles& laid = body.start->laid;
+      BodyParticles& out = result.emplace_back(BodyParticles{laid.position, laid.mass});
+      for (std::size_t k = 0; k < laid.density.size(); ++k) out.volume[k] /= laid.density[k];
+    } else if (body.start && body.start->covers)
+      result.push_back(points_inside(grid, settings, body.start->box, body.start->covers, who));
+    else result.push_back(fill(grid, settings, body.shape, who));
+  }
   return result;
 }
 

@@ -11,7 +11,7 @@ namespace undex::sph {
 
 struct BodyParticles {
   std::vector<Vec3> position;  ///< [m]
-  std::vector<double> volume;  ///< [m^d]; their sum is the exact volume of the kept part of the body
+  std::vector<double> volume;  ///< [m^d]; of a shape their sum is the exact volume of its kept part
 };
 
 /// The points of a grid inside a shape, on the kept side of the symmetry planes. Throws std::invalid_argument, as `who`, where

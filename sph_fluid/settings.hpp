@@ -118,16 +118,30 @@ struct StartState {
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
 };
 
+/// The particles of a body as a start has laid them, in the order of their numbers, in the solver's frame.
+struct LaidParticles {
+  std::vector<Vec3> position, velocity;       ///< [m], [m/s]
+  std::vector<double> density, mass, energy;  ///< [kg/m^3], [kg], [J/kg]
+};
+
 /// A start that is not uniform: a wave, or a computation before this one.
 struct StartField {
   /// State of the particle at x [m] that stands for a cell of width `spacing` [m].
   std::function<StartState(const Vec3& x, double spacing)> state;
+  /// Is the lattice's point x [m] the body's? In place of its shape, within `box`. Empty: the shape says it.
+  std::function<bool(const Vec3& x)> covers;
+  Bounds box;
   /// Of the kept part [kg]; the particles' masses are scaled to it. Zero: nothing is scaled, the states are exact means.
   double mass = 0;
   /// Of the kept part [J]. What of it the particles have not (motion within a spacing) is heat: part of their internal energy,
   /// or dissipated where the law has none.
   double kinetic_energy = 0;
   double internal_energy = 0;  ///< of the kept part [J]; energies are scaled to it where the law has them
+  /// Are momentum and the sum of energies exact too? What particles lack of them is given to those in motion, and the compression
+  /// energy that a barotropic body lacks is dissipated as well.
+  bool exact = false;
+  Vec3 momentum = Vec3::Zero();  ///< of the kept part [kg m/s], where it is exact; not across symmetry planes
+  LaidParticles laid;            ///< where there are some they are the body, and nothing else counts
 };
 
 struct Body {

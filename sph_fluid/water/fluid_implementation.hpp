@@ -19,8 +19,12 @@ struct Fluid::Implementation : Water {
 
   // Set-up: start.cpp.
   void fill();
+  /// The particles become those that are laid already.
+  void take(const LaidParticles& laid, const Group& group);
   /// Replaces a body's uniform start; mass, kinetic energy and (with an energy field) internal energy become exact.
   void lay_on(const StartField& start, Group& group);
+  /// The same of a start that is exact: all masses become `heavier`.
+  void make_exact(const StartField& start, const Group& group, double heavier);
   /// Sum of m g . x [J]: what it has grown by is gravity's work.
   double fall() const;
 

@@ -11,18 +11,6 @@
 #include "sph_fluid/pairs/sums.hpp"
 
 namespace undex::sph {
-namespace {
-
-double barotropic_energy(const materials::FluidLaw& law, double rho) {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::uses_energy) return 0.0;
-        else return l.barotropic_energy(rho);
-      },
-      law);
-}
-
-}  // namespace
 
 // ---- What others ask ------------------------------------------------------------------------------------------------
 
@@ -130,7 +118,7 @@ Ledger Fluid::Implementation::ledger() const {
       Part one;
       one.mass = p.mass[i];
       one.kinetic = 0.5 * p.mass[i] * (p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-      one.internal = p.mass[i] * (with_energy ? p.energy[i] : barotropic_energy(law, p.rho[i]));
+      one.internal = p.mass[i] * (with_energy ? p.energy[i] : materials::barotropic_energy(law, p.rho[i]));
       one.momentum[0] = p.mass[i] * p.vx[i];
       one.momentum[1] = p.mass[i] * p.vy[i];
       one.momentum[2] = p.mass[i] * p.vz[i];
@@ -227,7 +215,7 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
         out[i] = name == "material"            ? double(g)
                  : name == "void_fraction"     ? std::visit([&](const auto& l) { return l.void_fraction(p.rho[i]); }, law)
                  : materials::uses_energy(law) ? p.energy[i]
-                                               : barotropic_energy(law, p.rho[i]);
+                                               : materials::barotropic_energy(law, p.rho[i]);
     }
   } else if (!p.copy(name, out)) {
     throw std::invalid_argument("no particle field is named '" + std::string(name) + "'");

@@ -66,8 +66,23 @@ void Fluid::Implementation::fill() {
     for (std::size_t earlier = b; earlier-- > 0;)
       if (same_material(settings.bodies[earlier].material, body.material)) group.material = std::uint32_t(earlier);
     bodies[b] = {};  // its memory is wanted
-    if (body.start) lay_on(*body.start, group);
+    if (body.start && !body.start->laid.position.empty()) take(body.start->laid, group);
+    else if (body.start) lay_on(*body.start, group);
     all.groups.push_back(std::move(group));
+  }
+  for (Body& body : settings.bodies) body.start.reset();  // it may hold much
+}
+
+void Fluid::Implementation::take(const LaidParticles& laid, const Group& group) {
+  Particles& p = all.particles;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    const std::size_t k = i - group.begin;
+    p.rho[i] = laid.density[k];
+    p.mass[i] = laid.mass[k];
+    p.vx[i] = laid.velocity[k][0];
+    p.vy[i] = laid.velocity[k][1];
+    p.vz[i] = laid.velocity[k][2];
+    if (materials::uses_energy(group.body->material.law)) p.energy[i] = laid.energy[k];
   }
 }
 
@@ -90,6 +105,7 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
   }
   if (start.mass <= 0) return;
   const double heavier = start.mass / mass;
+  if (start.exact) return make_exact(start, group, heavier);
   // Velocities are means by mass and keep their momentum; scaled to the kinetic energy they would push too hard (by 1 %
   // at a spacing of a tenth of the charge's radius).
   const double heat = start.kinetic_energy - kinetic * heavier;
@@ -99,6 +115,48 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
     p.mass[i] *= heavier;
     if (with_energy) p.energy[i] *= hotter;
   }
+}
+
+void Fluid::Implementation::make_exact(const StartField& start, const Group& group, double heavier) {
+  Particles& p = all.particles;
+  const materials::FluidLaw& law = group.body->material.law;
+  const bool with_energy = materials::uses_energy(law);
+  const auto velocity = [&](std::uint32_t i) { return Vec3(p.vx[i], p.vy[i], p.vz[i]); };
+
+  Vec3 momentum = Vec3::Zero();
+  double sum_of_speeds = 0;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    p.mass[i] *= heavier;
+    momentum += p.mass[i] * velocity(i);
+    sum_of_speeds += p.mass[i] * velocity(i).norm();
+  }
+  Vec3 lacking = start.momentum - momentum;
+  for (int a = 0; a < 3; ++a)
+    if (a >= settings.dimension || settings.symmetry.axis[a]) lacking[a] = 0.0;
+  if (lacking.norm() > 1e-15 * sum_of_speeds && sum_of_speeds > 0)  // in proportion to the speed, so that rest stays rest
+    for (std::uint32_t i = group.begin; i < group.end; ++i) {
+      const Vec3 more = velocity(i).norm() / sum_of_speeds * lacking;
+      p.vx[i] += more[0];
+      p.vy[i] += more[1];
+      p.vz[i] += more[2];
+    }
+
+  double kinetic = 0, internal = 0;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    kinetic += 0.5 * p.mass[i] * velocity(i).squaredNorm();
+    internal += p.mass[i] * (with_energy ? p.energy[i] : materials::barotropic_energy(law, p.rho[i]));
+  }
+  const double heat = start.kinetic_energy + start.internal_energy - kinetic - internal;
+  if (!with_energy) {
+    exchange.dissipated += heat;
+    return;
+  }
+  // Motion that is lost becomes heat where it was; but none is taken where there is little.
+  const auto share = [&](std::uint32_t i) { return kinetic > 0 ? 0.5 * velocity(i).squaredNorm() * heat / kinetic : 0.0; };
+  bool in_motion = kinetic > 0;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) in_motion = in_motion && share(i) >= -0.5 * std::abs(p.energy[i]);
+  for (std::uint32_t i = group.begin; i < group.end; ++i)
+    p.energy[i] += in_motion ? share(i) : p.energy[i] * (internal != 0 ? heat / internal : 0.0);
 }
 
 }  // namespace undex::sph

@@ -9,8 +9,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
-#include "run/plane_wave_start.hpp"
-#include "run/spherical_start.hpp"
+#include "run/starts.hpp"
 #include "scenes.hpp"
 
 namespace undex::run::test {
@@ -218,8 +217,7 @@ const std::vector<Feature>& features() {
 std::string fault_of(const Column& column, std::string& refusal) {
   try {
     scene::Scene scene = read_text(column.text());
-    if (scene.start.kind == scene::Start::Kind::spherical) begin_spherically(scene);
-    if (scene.start.kind == scene::Start::Kind::plane_wave) begin_with_plane_wave(scene);
+    begin(scene);
     Simulation simulation(scene);
     run_to(simulation, simulation.time() + 4e-6);
     std::ostringstream wrong;

@@ -11,9 +11,8 @@
 
 #include "judge/judge.hpp"
 #include "output/checkpoint.hpp"
-#include "run/plane_wave_start.hpp"
 #include "run/simulation.hpp"
-#include "run/spherical_start.hpp"
+#include "run/starts.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
@@ -29,8 +28,7 @@ scene::Scene scene_of(const Cut& cut) {
   std::vector<scene::Override> overrides;
   for (const auto& [key, value] : cut.settings) overrides.push_back({key, value});
   scene::Scene scene = scene::read(std::filesystem::path(UNDEX_CASES) / cut.scene, judge::comparison_kinds(), overrides);
-  if (scene.start.kind == scene::Start::Kind::spherical) begin_spherically(scene);
-  if (scene.start.kind == scene::Start::Kind::plane_wave) begin_with_plane_wave(scene);
+  begin(scene);
   return scene;
 }
 
@@ -82,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Cut{"gas", "sjogreen", {{spacing, "0.01"}}}, Cut{"burning_charge", "petn_slab", {{spacing, "4e-4"}}},
                     Cut{"rigid_walls", "rigid_cylinder", {{spacing, "0.006"}, {"start.kind", "\"plain\""}}},
                     Cut{"spherical_start", "rigid_cylinder", {{spacing, "0.006"}}},
+                    Cut{"from_a_run", "rigid_cylinder/chained.toml", {{spacing, "0.006"}}},
                     Cut{"viscosity_switch", "rigid_cylinder", {{spacing, "0.006"}, {"scheme.name", "\"monaghan_switch\""}}},
                     Cut{"corrected", "rigid_cylinder", {{spacing, "0.006"}, {"scheme.name", "\"riemann_corrected\""}}},
                     Cut{"runge_kutta", "rigid_cylinder", {{spacing, "0.006"}, {"scheme.integrator", "\"ssp_rk3\""}}, 18},

@@ -81,6 +81,92 @@ TEST(SphericalStart, LoadsWaitForTheWater) {
   EXPECT_EQ(simulation.bodies().front()->ledger().momentum, Vec3(0, 0, 0));
 }
 
+const std::string two_bubbles = R"(
+end_time = 1e-4
+threads = 1
+[resolution]
+spacing = 0.003
+[symmetry]
+planes = ["x", "y"]
+[start]
+kind = "spherical"
+[[bodies]]
+name = "upper"
+shape = {type = "sphere", radius = 0.01, center = [0, 0, 0.03]}
+material = {law = "ideal_gas", rho0 = 500, gamma = 2}
+energy = 1e6
+[[bodies]]
+name = "lower"
+shape = {type = "sphere", radius = 0.01, center = [0, 0, -0.03]}
+material = {law = "ideal_gas", rho0 = 500, gamma = 2}
+energy = 1e6
+[[bodies]]
+name = "water"
+shape = {type = "cylinder", axis = "z", radius = 0.045, low = -0.075, high = 0.075}
+subtract = ["upper", "lower"]
+material = "water-tait"
+pressure = 1e5
+)";
+
+double mass_of(const Simulation& simulation, int body) {
+  const auto mass = simulation.fluid()->field("mass"), material = simulation.fluid()->field("material");
+  double sum = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    if (material[i] == body) sum += mass[i];
+  return sum;
+}
+
+/// Masses are those of time zero, and so is all energy: nothing has left. In space and about the axis through both.
+TEST(SphericalStart, SeveralChargesEachHaveAFlow) {
+  double kinetic[2];
+  for (const bool ring : {false, true}) {
+    std::vector<scene::Override> overrides{{"dimension", ring ? "\"axisymmetric\"" : "3"}};
+    scene::Scene scene = read_text(two_bubbles, overrides);
+    const std::string report = begin_spherically(scene);
+    EXPECT_NE(report.find("'upper'"), std::string::npos) << report;
+    EXPECT_NE(report.find("'lower'"), std::string::npos) << report;
+    Simulation both(scene);
+    overrides.push_back({"start.kind", "\"plain\""});
+    const Simulation plain(read_text(two_bubbles, overrides));
+    EXPECT_GT(both.time(), 3e-6);
+    EXPECT_LT(both.time(), 0.02 / 1500);
+    for (const int body : {0, 1, 2}) EXPECT_NEAR(mass_of(both, body) / mass_of(plain, body), 1.0, 2e-5);
+    EXPECT_NEAR(both.energy().total() / plain.energy().total(), 1.0, 2e-5);
+    kinetic[ring] = both.energy().kinetic;
+    run_to(both, both.time() + 4e-6);
+    EXPECT_LT(std::abs(both.energy().error()), 2e-3);
+    if (ring) {
+      EXPECT_LT(both.momentum_error(), 1e-12);
+    }
+  }
+  EXPECT_NEAR(kinetic[1] / kinetic[0], 1.0, 0.01);
+}
+
+/// A plane of symmetry beside a charge stands for a second one: the same time, and half of everything.
+TEST(SphericalStart, APlaneBesideAChargeStandsForItsImage) {
+  std::string half = two_bubbles;
+  half.replace(half.find("[\"x\", \"y\"]"), 10, "[\"x\", \"y\", \"z\"]");
+  const std::size_t from = half.find("[[bodies]]\nname = \"lower\""), to = half.find("[[bodies]]\nname = \"water\"");
+  half.erase(from, to - from);
+  half.replace(half.find("[\"upper\", \"lower\"]"), 18, "[\"upper\"]");
+  scene::Scene one = read_text(half), two = read_text(two_bubbles);
+  begin_spherically(one);
+  begin_spherically(two);
+  EXPECT_NEAR(one.fluid.start_time / two.fluid.start_time, 1.0, 1e-4);
+  const Simulation mirrored(one), whole(two);
+  EXPECT_NEAR(mirrored.energy().kinetic / whole.energy().kinetic, 1.0, 1e-3);
+  EXPECT_NEAR(2.0 * mass_of(mirrored, 1) / mass_of(whole, 2), 1.0, 1e-5);
+}
+
+TEST(SphericalStart, RefusesChargesWhoseWavesMeetTooSoon) {
+  const auto says = [](const std::vector<scene::Override>& overrides, const char* what) {
+    EXPECT_NE(refusal(two_bubbles, overrides).find(what), std::string::npos) << refusal(two_bubbles, overrides);
+  };
+  says({{"start.time", "1.5e-5"}}, "the waves of two charges have met");
+  says({{"start.body", "\"upper\""}}, "'lower' begins at");
+  says({{"bodies.upper.shape.center", "[0, 0, 0]"}, {"bodies.lower.shape.center", "[0, 0, -0.022]"}}, "too near to the charge");
+}
+
 /// Twice as far costs a fixed number of steps more, not four times the work.
 TEST(SphericalStart, CostGrowsWithTheLogarithmOfTheWay) {
   const scene::Scene scene = read_text(bubble_in_a_tank);

@@ -54,5 +54,50 @@ TEST(StartField, AndInternalWhereItHasOne) {
   EXPECT_EQ(ledger.dissipated, 0.0);
 }
 
+/// An exact start gives what averaging has lost back to what moves: momentum as speed, energy as heat where there was motion.
+TEST(StartField, AnExactStartHasMomentumAndEnergy) {
+  const double density = 1000.0, energy = 1e6, wanted = 1.01 * density * amplitude * 2 / std::numbers::pi;
+  for (const char* material : {"petn", "water-tait"}) {
+    Settings s = sine(material, density, energy, 8);
+    StartField field = *s.bodies[0].start;
+    const auto sines = field.state;
+    field.state = [=](const Vec3& x, double spacing) {  // the upper half rests
+      StartState state = sines(x, spacing);
+      if (x[0] > 0.5) state.velocity.setZero();
+      return state;
+    };
+    field.exact = true;
+    field.momentum = Vec3(wanted, 0, 0);
+    field.internal_energy = density * energy;
+    s.bodies[0].start = std::make_shared<StartField>(field);
+    const Fluid fluid(s);
+    const Ledger ledger = fluid.ledger();
+    const double whole = field.kinetic_energy + field.internal_energy;
+    EXPECT_NEAR(ledger.momentum[0] / wanted, 1.0, 1e-13);
+    EXPECT_NEAR((ledger.kinetic + ledger.internal + ledger.dissipated) / whole, 1.0, 1e-13);
+    EXPECT_NEAR(ledger.mass / field.mass, 1.0, 1e-13);
+    const auto x = fluid.field("position"), v = fluid.field("velocity"), e = fluid.field("energy");
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      if (x[3 * i] < 0.5) continue;
+      EXPECT_EQ(v[3 * i], 0.0);
+      if (std::string(material) == "petn") {
+        EXPECT_EQ(e[i], energy);
+      }
+    }
+  }
+}
+
+/// Whose a place is may be said in place of a shape: what is covered has the lattice's own cells.
+TEST(StartField, CoversInPlaceOfTheShape) {
+  Settings s = sine("water-tait", 1000.0, 0.0, 16);
+  StartField field;
+  field.state = [](const Vec3&, double) { return StartState{1000.0, 0.0, Vec3::Zero()}; };
+  field.covers = [](const Vec3& x) { return x[0] > 0.25; };
+  field.box = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  s.bodies[0].start = std::make_shared<StartField>(field);
+  const Ledger ledger = Fluid(s).ledger();
+  EXPECT_NEAR(ledger.mass, 750.0, 1e-10);
+}
+
 }  // namespace
 }  // namespace undex::sph::testing

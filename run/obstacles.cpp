@@ -1,0 +1,92 @@
+#include "run/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/structure_shape.hpp"
+
+namespace undex::run {
+namespace {
+
+/// The numbers that make a primitive; a component that means nothing is zero.
+std::vector<double> numbers_of(Primitive shape) {
+  std::vector<double> numbers{double(shape.index())};
+  std::visit(
+      [&](auto& each) {
+        if constexpr (requires {
+                        each.axis;
+                        each.center;
+                      })
+          each.center[each.axis] = 0.0;
+        for_each_field(each, [&](const auto& member, const Key&) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Vec3>)
+            numbers.insert(numbers.end(), member.begin(), member.end());
+          else numbers.push_back(double(member));
+        });
+      },
+      shape);
+  return numbers;
+}
+
+bool same_wall(const sph::Wall& one, const sph::Wall& other) {
+  return same_shape(one.container, other.container) && one.faces == other.faces;
+}
+
+/// What the first scene has and the second has not.
+void add_of(const scene::Scene& scene, const scene::Scene& other, const std::string& whose, std::vector<Obstacle>& found) {
+  const int dimension = scene.fluid.dimension;
+  const auto surface = [&](const std::string& name, const Primitive& shape) {
+    found.push_back({name + whose, [=](const Vec3& x) { return std::abs(signed_distance(shape, x, dimension)); }});
+  };
+  for (const sph::Wall& wall : scene.fluid.walls)
+    if (std::none_of(other.fluid.walls.begin(), other.fluid.walls.end(), [&](const auto& one) { return same_wall(wall, one); }))
+      surface("wall '" + wall.name + "'", wall.container);
+  const auto has = [&](const Primitive& shape) {
+    return std::any_of(other.fluid.bodies.begin(), other.fluid.bodies.end(), [&](const sph::Body& body) {
+      return same_shape(shape, body.shape.base) || std::any_of(body.shape.removed.begin(), body.shape.removed.end(),
+                                                               [&](const Primitive& hole) { return same_shape(shape, hole); });
+    });
+  };
+  for (const sph::Body& body : scene.fluid.bodies) {
+    if (!has(body.shape.base)) surface("the outside of body '" + body.name + "'", body.shape.base);
+    for (const Primitive& hole : body.shape.removed)
+      if (!has(hole)) surface("what is subtracted from body '" + body.name + "'", hole);
+    if (std::none_of(other.fluid.bodies.begin(), other.fluid.bodies.end(), [&](const auto& b) { return b.name == body.name; }))
+      found.push_back({"body '" + body.name + "'" + whose,
+                       [shape = body.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
+  }
+  for (const solid::Body& solid : scene.solids.bodies)
+    found.push_back({"solid '" + solid.name + "'" + whose,
+                     [shape = solid.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
+  if (!scene.structure) return;
+  if (const auto shape = scene::structure_shape(scene.structure->mesh)) {
+    const bool whole = shape->built_in().has_value();
+    const std::array<bool, 3> planes = scene.fluid.symmetry.axis;
+    found.push_back({"the structure" + whose, [=](Vec3 x) {
+                       for (int a = 0; a < 3; ++a)
+                         if (!whole && planes[a]) x[a] = std::abs(x[a]);
+                       return shape->signed_distance(x);
+                     }});
+  }
+}
+
+}  // namespace
+
+bool same_shape(const Primitive& one, const Primitive& other) { return numbers_of(one) == numbers_of(other); }
+
+bool same_shape(const Shape& one, const Shape& other) {
+  if (!same_shape(one.base, other.base) || one.removed.size() != other.removed.size()) return false;
+  return std::all_of(one.removed.begin(), one.removed.end(), [&](const Primitive& hole) {
+    return std::any_of(other.removed.begin(), other.removed.end(),
+                       [&](const Primitive& there) { return same_shape(hole, there); });
+  });
+}
+
+std::vector<Obstacle> obstacles_between(const scene::Scene& scene, const scene::Scene& donor) {
+  std::vector<Obstacle> found;
+  add_of(scene, donor, "", found);
+  add_of(donor, scene, " of the donor", found);
+  return found;
+}
+
+}  // namespace undex::run
