@@ -92,6 +92,18 @@ Primitive opened(const sph::Wall& wall) {
   }
   if (const auto* sphere = std::get_if<Sphere>(&wall.container))
     return Sphere{sphere->center, open("side") ? far : sphere->radius};
+  if (const auto* cone = std::get_if<Cone>(&wall.container)) {
+    // As long again, but not beyond its tip.
+    const double length = cone->high - cone->low, wider = cone->high_radius - cone->low_radius;
+    const auto further = [&](double radius, double by) { return by < 0 ? std::min(length, -radius / by * length) : length; };
+    Cone larger = *cone;
+    if (open("low")) larger.low -= further(cone->low_radius, -wider);
+    if (open("high")) larger.high += further(cone->high_radius, wider);
+    larger.low_radius = std::max(0.0, cone->radius_at(larger.low));
+    larger.high_radius = std::max(0.0, cone->radius_at(larger.high));
+    if (open("side")) larger.low_radius = larger.high_radius = far;
+    return larger;
+  }
   Cylinder larger = std::get<Cylinder>(wall.container);
   if (open("side")) larger.radius = far;
   if (open("low")) larger.low = -far;
@@ -105,6 +117,13 @@ void Validator::walls() {
   for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
     if (!draft_.wall_shape_good[w]) return;
   if (fluid_.walls.empty()) return;
+  for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
+    if (const auto* cone = std::get_if<Cone>(&fluid_.walls[w].container);
+        cone && fluid_.symmetry.axis[static_cast<std::size_t>(cone->axis)] && cone->low <= 0 &&
+        cone->low_radius != cone->high_radius)
+      complain(*draft_.wall_nodes[w], "shape",
+               "walls." + fluid_.walls[w].name + ": the cone's side meets the symmetry plane " + "xyz"[cone->axis] +
+                   " = 0 at a slant, where the images in both are not each other's; leave that plane out");
   for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) {
     if (!usable_[i]) continue;
     const sph::Body& body = fluid_.bodies[i];
