@@ -153,6 +153,16 @@ TEST(Revolution, MistakesOfConesAreNamed) {
       << "out of the open end, to the tip";
 }
 
+TEST(Revolution, SlenderTipsAreWarnedOf) {
+  const auto warnings = [](const char* radius) {
+    return read_text(funnel, {{"walls.funnel.shape.low_radius", radius}, {"bodies.water.shape.low_radius", radius}}).warnings;
+  };
+  EXPECT_TRUE(warnings("0.003").empty());
+  ASSERT_EQ(warnings("0.0029").size(), 1u);
+  EXPECT_NE(warnings("0")[0].find("walls.funnel: the cone narrows to a radius of 0 m, and the water's kernel reaches 0.003 m"),
+            std::string::npos);
+}
+
 TEST(Revolution, ConesInAPlaneAreTrapezia) {
   const std::string plane = R"(dimension = 2
 end_time = 1e-5
@@ -232,6 +242,7 @@ TEST(Revolution, MeridiansOfGmshAreRead) {
   expect_found(with(washer, "0.032]", "0.036]"), {}, "probes.rim.point is 0.00326");
   expect_found(with(washer, "face = \"6\"", "face = \"7\""), {}, "'7'");
   expect_found(washer, {{"dimension", "3"}}, "the mesh holds no hexahedra");
+  EXPECT_EQ(found(washer, {{"dimension", "3"}, {"probes.rim.kind", "wall"}}).find("1e+300"), std::string::npos);
   expect_found(with(washer, "fixed = [\"x\"]", "fixed = [\"y\"]"), {}, "both components across the axis of revolution");
 
   const std::string wet = R"(
