@@ -39,6 +39,13 @@ double radial(const Vec3& x, const Vec3& center, int axis, int dimension) {
 }
 bool has_radius(int axis, int dimension) { return dimension > 1 || axis != 0; }
 
+/// From (r, z) to the line from (r0, z0) to (r1, z1).
+double to_segment(double r, double z, double r0, double z0, double r1, double z1) {
+  const double dr = r1 - r0, dz = z1 - z0, square = dr * dr + dz * dz;
+  const double share = square > 0 ? std::clamp(((r - r0) * dr + (z - z0) * dz) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(r - r0 - share * dr, z - z0 - share * dz);
+}
+
 struct Distance {
   const Vec3& x;
   int dimension;
@@ -61,6 +68,13 @@ struct Distance {
   }
   double operator()(const TubeShape& t) const {
     return round(t.axis, t.low, t.high, interval(radial(x, t.center, t.axis, dimension), t.inner, t.outer));
+  }
+  double operator()(const Cone& cone) const {
+    const double r = radial(x, cone.center, cone.axis, dimension), z = x[cone.axis];
+    const double nearest = std::min({to_segment(r, z, 0, cone.low, cone.low_radius, cone.low),
+                                     to_segment(r, z, cone.low_radius, cone.low, cone.high_radius, cone.high),
+                                     to_segment(r, z, cone.high_radius, cone.high, 0, cone.high)});
+    return z >= cone.low && z <= cone.high && r <= cone.radius_at(z) ? -nearest : nearest;
   }
 
   double round(int axis, double low, double high, double across) const {
@@ -86,6 +100,7 @@ struct Extent {
   }
   Bounds operator()(const Cylinder& c) const { return round(c.axis, c.center, c.radius, c.low, c.high); }
   Bounds operator()(const TubeShape& t) const { return round(t.axis, t.center, t.outer, t.low, t.high); }
+  Bounds operator()(const Cone& c) const { return round(c.axis, c.center, std::max(c.low_radius, c.high_radius), c.low, c.high); }
 
   Bounds round(int axis, const Vec3& center, double radius, double low, double high) const {
     Vec3 lowest = center - Vec3::Constant(radius), highest = center + Vec3::Constant(radius);

@@ -54,6 +54,19 @@ struct TubeShape {
   double inner = 0, outer = 0, low = 0, high = 1;
 };
 
+/// Truncated cone along `axis` through `center` (its component along the axis is ignored) [m]. Either radius may be zero: a tip.
+/// In 2D scenes, along x or y, its section through the axis.
+struct Cone {
+  static constexpr const char* name = "cone";
+  static constexpr const char* summary = "a truncated cone along `axis`, or a whole one; in 2D a trapezium (axis \"x\", \"y\")";
+  static constexpr bool is_bounded = true, is_container = true;
+  int axis = 2;
+  Vec3 center = Vec3::Zero();
+  double low_radius = 0, high_radius = 0, low = 0, high = 1;
+
+  double radius_at(double along) const { return low_radius + (high_radius - low_radius) * (along - low) / (high - low); }
+};
+
 template <class Visit>
 void describe_corners(Vec3& low, Vec3& high, Visit&& visit) {
   visit(low, {.name = "low",
@@ -139,8 +152,26 @@ void describe(TubeShape& tube, Visit&& visit) {
                      .greater = "inner_radius"});
   describe_ends(tube.axis, tube.low, tube.high, visit);
 }
+template <class Visit>
+void describe(Cone& cone, Visit&& visit) {
+  describe_axis(cone.axis, cone.center, visit);
+  constexpr Range radius = Range::between(0, Range::farthest);
+  visit(cone.low_radius, {.name = "low_radius",
+                          .unit = "m",
+                          .range = radius,
+                          .needed = true,
+                          .remedy = "give it in m (0: a tip)",
+                          .meaning = "at `low`; 0: a tip"});
+  visit(cone.high_radius, {.name = "high_radius",
+                           .unit = "m",
+                           .range = radius,
+                           .needed = true,
+                           .remedy = "give it in m (0: a tip)",
+                           .meaning = "at `high`"});
+  describe_ends(cone.axis, cone.low, cone.high, visit);
+}
 
-using Primitive = std::variant<Box, Slab, Sphere, Cylinder, TubeShape>;
+using Primitive = std::variant<Box, Slab, Sphere, Cylinder, TubeShape, Cone>;
 
 /// A primitive less any number of others.
 struct Shape {

@@ -43,7 +43,7 @@ struct TubeMesh {
 struct RodMesh {
   static constexpr const char* name = "rod";
   static constexpr const char* summary = "as the [cylinder](#shapes); faces \"side\", \"low\", \"high\"";
-  static constexpr bool has_wall = false;
+  static constexpr bool has_wall = false;  ///< but in a meridian, where it is a disc
   int axis = 2;
   Vec3 center = Vec3::Zero();            ///< a point on the axis [m]
   double radius = 0, low = 0, high = 0;  ///< [m]
@@ -57,7 +57,8 @@ struct PlateMesh {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< [m]
   std::array<int, 3> cells{1, 1, 1};
 };
-/// Hexahedral mesh of gmsh's .msh; faces are named by their physical (boundary) id as text: "1", "2", ... (without one "0").
+/// Mesh of gmsh's .msh, of hexahedra or of a meridian's quadrangles; faces are named by their physical (boundary) id as text:
+/// "1", "2", ... (without one "0").
 struct GmshMesh {
   static constexpr const char* name = "gmsh";
   static constexpr const char* summary = "a mesh with its own cells; its faces are its physical ids as text, \"1\", \"2\", ...";
@@ -109,7 +110,8 @@ void describe(GmshMesh& mesh, Visit&& visit) {
                     .needed = true,
                     .remedy = "give the .msh file, relative to the scene file",
                     .values = "a .msh file of hexahedra",
-                    .meaning = "relative to the scene file"});
+                    .meaning = "relative to the scene file; in an axisymmetric scene of quadrangles: the file's x is the "
+                               "distance from the axis of revolution, its y the coordinate along it"});
 }
 
 /// The counts of a mesh's cells, all of the whole body: a second record of the same mesh.
@@ -171,12 +173,14 @@ void describe(Cells<RodMesh>& cells, Visit&& visit) {
                           .multiple = cells.halves(rod.axis, rod.low),
                           .meaning = "along the axis"});
 }
-/// By default a cell is a sixth of the radius.
-inline void choose(Cells<RodMesh>& cells, std::optional<double> size, ElementKind) {
+/// By default a cell is a sixth of the radius, a shell's (a disc of revolution) as wide as it is thick.
+inline void choose(Cells<RodMesh>& cells, std::optional<double> size, ElementKind element) {
   RodMesh& rod = cells.mesh;
-  const double cell = size.value_or(rod.radius / 6);
+  const bool shell = element == ElementKind::shell;
+  const double cell = size.value_or(shell ? rod.high - rod.low : rod.radius / 6);
+  const Multiple halves = cells.halves(rod.axis, rod.low);
   rod.cells_radial = cells_over(rod.radius, cell, 2);
-  rod.cells_along = cells_over(rod.high - rod.low, cell, 1, cells.halves(rod.axis, rod.low));
+  rod.cells_along = shell ? halves.of : cells_over(rod.high - rod.low, cell, 1, halves);
 }
 
 template <class Visit>

@@ -83,7 +83,8 @@ void describe(Settings& structure, Visit&& visit) {
                    .meaning = "largest size of a cell, in place of `cells`; a shell has one through the wall all the same"});
   visit(structure.element,
         {.name = "element",
-         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent)"});
+         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent); in an "
+                    "axisymmetric scene of a rod too, which is a disc (along its axis)"});
   visit(structure.points_through,
         {.name = "points_through",
          .range = Range::between(2, 10),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "exact/classical.hpp"
@@ -22,6 +23,24 @@ using output::Series;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double forever = std::numeric_limits<double>::infinity();
 
+/// The plate's extent along the wave's way, and the faces at its ends.
+struct Plate {
+  double low, high;  // [m]
+  std::string low_face, high_face;
+};
+
+/// A plate; or a disc whose axis is that of the wave.
+std::optional<Plate> plate_of(const scene::Scene& scene) {
+  if (!scene.structure) return std::nullopt;
+  const int axis = scene.start.wave.axis;
+  const std::string letter(1, "xyz"[axis]);
+  if (const auto* plate = std::get_if<fem::PlateMesh>(&scene.structure->mesh))
+    return Plate{plate->low[axis], plate->high[axis], letter + "_low", letter + "_high"};
+  if (const auto* disc = std::get_if<fem::RodMesh>(&scene.structure->mesh); disc && disc->axis == axis)
+    return Plate{disc->low, disc->high, "low", "high"};
+  return std::nullopt;
+}
+
 /// The scene along the wave's way, with the plate's wet face at zero and the water below it.
 struct Line {
   double way;            // sign of the wave's direction
@@ -31,15 +50,15 @@ struct Line {
 
 Line line_of(const scene::Scene& scene) {
   const scene::Start::Wave& wave = scene.start.wave;
-  const auto& plate = std::get<fem::PlateMesh>(scene.structure->mesh);
+  const Plate plate = plate_of(scene).value();
   const double way = wave.upward ? 1.0 : -1.0;
-  const double face = wave.upward ? plate.low[wave.axis] : plate.high[wave.axis];
+  const double face = wave.upward ? plate.low : plate.high;
   const Bounds water = bounds(scene.fluid.bodies[run::wave_body(scene)].shape, scene.fluid.dimension);
   const double far_end = wave.upward ? water.low[wave.axis] : water.high[wave.axis];
   return {.way = way,
           .length = way * (face - far_end),
           .front = way * (wave.front - face),
-          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)[wave.axis]};
+          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low)};
 }
 
 /// The one-dimensional mesh of the water: as fine as the wave asks for, and finer towards a plate that weighs less
@@ -76,11 +95,13 @@ void expect_affordable(const scene::TableReader& table, const scene::Scene& scen
 /// A plate that a plane wave meets head-on.
 void check(const scene::TableReader& table, const scene::Scene& scene) {
   const scene::Start::Wave& wave = scene.start.wave;
-  const auto* plate = scene.structure ? std::get_if<fem::PlateMesh>(&scene.structure->mesh) : nullptr;
-  const std::string face = std::string(1, "xyz"[wave.axis]) + (wave.upward ? "_low" : "_high");
+  const std::optional<Plate> plate = plate_of(scene);
+  const std::string face = !plate ? "" : wave.upward ? plate->low_face : plate->high_face;
   if (scene.start.kind != scene::Start::Kind::plane_wave || !plate)
-    table.complain("kind",
-                   "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"");
+    table.complain(
+        "kind",
+        "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\", or of "
+        "type \"rod\" along the wave: a disc");
   else if (scene.structure->wet_faces != std::vector<std::string>{face})
     table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
                                "'; write structure.wet = [\"" + face + "\"]");

@@ -30,6 +30,8 @@ std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
     if (std::holds_alternative<Sphere>(wall.container)) pushed[a] = closed("side");
     else if (const auto* round = std::get_if<Cylinder>(&wall.container))
       pushed[a] = a == round->axis ? closed("low") || closed("high") : closed("side");
+    else if (const auto* cone = std::get_if<Cone>(&wall.container))
+      pushed[a] = closed("side") || (a == cone->axis && (closed("low") || closed("high")));
     else pushed[a] = closed(std::string(1, "xyz"[a]) + "_low") || closed(std::string(1, "xyz"[a]) + "_high");
   }
   const bool lined = !mirrors || std::any_of(wall.faces.begin(), wall.faces.end(),

@@ -33,7 +33,8 @@ struct Alternatives<std::variant<Types...>> {
   /// Of those for which is_meant(std::type_identity<Type>) holds.
   static std::vector<std::string> names(auto&& is_meant) {
     std::vector<std::string> some;
-    ((is_meant(std::type_identity<Types>{}) ? some.emplace_back(Types::name), void() : void()), ...);
+    some.reserve(sizeof...(Types));
+    ((is_meant(std::type_identity<Types>{}) ? some.push_back(std::string(Types::name)) : void()), ...);
     return some;
   }
   /// Calls visit(std::type_identity<Type>) for the alternative of that name; false where there is none.

@@ -19,6 +19,7 @@ std::vector<std::string> wall_faces(const Primitive& container, int dimension) {
     if (cylinder->axis < dimension) names.insert(names.end(), {"low", "high"});
     return names;
   }
+  if (const auto* cone = std::get_if<Cone>(&container); cone && cone->axis < dimension) return {"side", "low", "high"};
   if (std::holds_alternative<Sphere>(container)) return {"side"};
   return box_faces(dimension);
 }
@@ -44,6 +45,9 @@ std::vector<std::string> shape_faces(const Primitive& shape, int dimension, cons
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
     faces = {"side"};
     ends(cylinder->axis, cylinder->low);
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    faces = {"side"};
+    ends(cone->axis, cone->low);
   } else if (const auto* box = std::get_if<Box>(&shape)) {
     faces = box_faces(dimension);
     for (int a = 0; a < dimension; ++a)

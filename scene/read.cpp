@@ -12,6 +12,27 @@
 namespace undex::scene {
 namespace {
 
+/// In how many coordinates the file gives its places; nothing where its dimension is none.
+std::optional<int> written_in(const Node& root) {
+  const Node* node = root.find("dimension");
+  if (!node) return 3;
+  if (node->kind == Node::Kind::integer) return static_cast<int>(node->integer);
+  for (const auto& each : words(Geometry{}))
+    if (node->text == each.word) return coordinates_of(each.value);
+  return std::nullopt;
+}
+
+/// A word that overrides the dimension does not give places more coordinates, or fewer. False, and a complaint, where it should.
+bool can_be_taken(std::optional<int> written, Draft& draft) {
+  const int wanted = draft.scene.fluid.dimension;
+  const Node* node = draft.root.find("dimension");
+  if (!draft.dimension_good || !node || node->kind != Node::Kind::text || !written || *written == wanted) return true;
+  draft.report.add(*node, "dimension = " + toml_value(*node) + " is written with " + std::to_string(wanted) +
+                              " coordinates a place, and this scene with " + std::to_string(*written) +
+                              "; write its places, shapes and velocities with " + std::to_string(wanted));
+  return false;
+}
+
 void read_top(Draft& draft) {
   Scene& scene = draft.scene;
   {
@@ -82,8 +103,10 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   draft.root = parse_toml(file_text(file), file.string());
   draft.scene.file = file;
   draft.scene.name = name_of(file, "case.toml");
+  const std::optional<int> written = written_in(draft.root);
   apply(overrides, draft.root, draft.report);
   read_top(draft);
+  if (!can_be_taken(written, draft)) throw SceneError(file.string(), without_repetitions(draft.report.findings()));
   read_own_materials(draft);
   read_fluid(draft);
   read_solids(draft);

@@ -31,7 +31,9 @@ bool find_file(const TableReader& table, const TableReader& shape, const Draft& 
   for (const char* key : {"cells", "cell_size"})
     if (table.has(key)) table.complain(key, table.path_of(key) + ": a gmsh mesh has its own cells; leave it out");
   try {
-    mesh.read = std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path));
+    const bool meridian = draft.scene.geometry == Geometry::axisymmetric;
+    mesh.read =
+        std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra));
   } catch (const std::invalid_argument& mistake) {
     shape.complain("path", shape.path_of("path") + ": " + mistake.what());
     return false;
@@ -69,10 +71,11 @@ bool read_mesh(const TableReader& table, const Draft& draft, fem::ElementKind el
   const std::string name = type->text == "ring" ? fem::TubeMesh::name : type->text;
   bool good = false;
   Alternatives<fem::Mesh>::with(name, [&]<class Type>(std::type_identity<Type>) {
-    if (element == fem::ElementKind::shell && !Type::has_wall)
+    const bool disc = std::is_same_v<Type, fem::RodMesh> && draft.scene.geometry == Geometry::axisymmetric;
+    if (element == fem::ElementKind::shell && !Type::has_wall && !disc)
       table.complain("element", table.path_of("element") +
-                                    " = \"shell\" needs a wall whose thickness direction is known, that of "
-                                    "a tube, ring or plate; use \"hexahedron\" for a " +
+                                    " = \"shell\" needs a wall whose thickness direction is known, that of a tube, ring or plate "
+                                    "(or of a rod with dimension = \"axisymmetric\", a disc); use \"hexahedron\" for a " +
                                     name);
     const std::size_t before_shape = report.size();
     const TableReader shape(*node, path, "structure." + name, 3, report);

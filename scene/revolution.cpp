@@ -56,6 +56,7 @@ class Judge {
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return round(*cylinder);
     if (const auto* tube = std::get_if<TubeShape>(&shape)) return round(*tube);
+    if (const auto* cone = std::get_if<Cone>(&shape)) return round(*cone);
     return "a box is no body of revolution; take a cylinder";
   }
   void of_shape(const std::string& path, const Shape& shape) {
@@ -110,8 +111,8 @@ class Judge {
       if (const std::string why = flaw(shape_of(*rod)); !why.empty()) object(path, why);
     } else if (std::holds_alternative<fem::PlateMesh>(structure.mesh)) {
       object(path, "a rectangular plate is no body of revolution; take a \"rod\", which is a disc where it is short");
-    } else {
-      object(path, "a mesh of gmsh is one of hexahedra in space; take \"tube\" or \"rod\"");
+    } else if (const auto& read = std::get<fem::GmshMesh>(structure.mesh).read; !read || !is_quadrangle(read->cells.at(0))) {
+      object(path, "its mesh is one of hexahedra in space; mesh its meridian with quadrangles, or take \"tube\" or \"rod\"");
     }
     if (!is_along(structure.initial_velocity)) object("structure.velocity", "it must be along the axis of revolution, " + axis_);
     for (const fem::Support& support : structure.supports) {
@@ -131,7 +132,9 @@ class Judge {
     if (!solid.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (solid.residual_stress != 0.0) object(path + ".residual_stress", "it is there for cylinders in two and three dimensions");
     if (solid.description != solid::Description::total_lagrangian)
-      object(path + ".description", "solids of revolution are \"total_lagrangian\"");
+      object(
+          path + ".description",
+          "solids of revolution are computed with the neighbours of the start: take \"total_lagrangian\", or three dimensions");
     slip(scene_.fluid.bodies.empty());
   }
 
@@ -151,6 +154,7 @@ std::optional<Vec3> round_about(const Primitive& shape, int axis) {
   if (const auto* cylinder = std::get_if<Cylinder>(&shape); cylinder && cylinder->axis == axis)
     return across(cylinder->center, axis);
   if (const auto* tube = std::get_if<TubeShape>(&shape); tube && tube->axis == axis) return across(tube->center, axis);
+  if (const auto* cone = std::get_if<Cone>(&shape); cone && cone->axis == axis) return across(cone->center, axis);
   return std::nullopt;
 }
 
@@ -164,6 +168,12 @@ Primitive meridian_of(const Primitive& shape, const Meridian& line) {
   if (const auto* slab = std::get_if<Slab>(&shape)) return Slab{axial, slab->low, slab->high};
   if (const auto* tube = std::get_if<TubeShape>(&shape))
     return Box{Vec3(tube->inner, tube->low, 0.0), Vec3(tube->outer, tube->high, 0.0)};
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    Cone section = *cone;
+    section.axis = axial;
+    section.center.setZero();
+    return section;
+  }
   const Cylinder& cylinder = std::get<Cylinder>(shape);
   return Box{Vec3(-cylinder.radius, cylinder.low, 0.0), Vec3(cylinder.radius, cylinder.high, 0.0)};
 }
@@ -206,7 +216,7 @@ sph::Body meridian_of(const sph::Body& body, const Meridian& line) {
 sph::Wall meridian_of(const sph::Wall& wall, const Meridian& line) {
   sph::Wall meridian = wall;
   meridian.container = meridian_of(wall.container, line);
-  if (std::holds_alternative<Sphere>(wall.container)) return meridian;
+  if (std::holds_alternative<Sphere>(wall.container) || std::holds_alternative<Cone>(wall.container)) return meridian;
   meridian.faces.clear();
   meridian.faces["x_low"] = sph::FaceCondition::open;  // beyond the axis
   for (const auto& [face, here] : {std::pair("side", "x_high"), {"low", "y_low"}, {"high", "y_high"}})
@@ -245,6 +255,7 @@ solid::Body meridian_of(const solid::Body& solid, const Meridian& line) {
   meridian.shape = meridian_of(solid.shape, line);
   meridian.lattice = sph::LatticeType::cartesian;
   meridian.velocity = line.vector(solid.velocity, line.outward());
+  if (std::holds_alternative<Cone>(solid.shape.base)) return meridian;
   const bool tube = std::holds_alternative<TubeShape>(solid.shape.base);
   for (std::string& face : meridian.wet) {
     if (face == "side" || face == "outer") face = std::holds_alternative<Sphere>(solid.shape.base) ? "side" : "x_high";

@@ -24,6 +24,7 @@ std::vector<Section> make_schema() {
   std::vector<Section> sections{
       {"faces.box", {word("x_low"), word("x_high"), word("y_low"), word("y_high"), word("z_low"), word("z_high")}},
       {"faces.cylinder", {word("side"), word("low"), word("high")}},
+      {"faces.cone", {word("side"), word("low"), word("high")}},
       {"faces.sphere", {word("side")}},
       {"comparison", {word("kind"), word("probe"), word("reference"), word("solution"), position("window"), length("core")}},
   };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/hexahedral_mesh.hpp"
+#include "core/meridian.hpp"
 #include "core/shapes.hpp"
 #include "fem_structure/settings.hpp"
 
@@ -19,10 +20,11 @@ std::vector<Vec3> face_points(const Primitive& shape, const std::string& face);
 /// Extent of a shape where it is thinnest: the wall of a tube, the diameter of a ball [m].
 double thickness(const Primitive& shape, int dimension);
 
-/// The shape of a structure: a built-in one, whole; or a gmsh mesh, which is the kept part.
+/// The shape of a structure: a built-in one, whole; or a gmsh mesh, which is the kept part. One of quadrangles is the section of
+/// a body of revolution about the meridian's axis; places are in space all the same.
 class StructureShape {
  public:
-  explicit StructureShape(const fem::Mesh& mesh);
+  explicit StructureShape(const fem::Mesh& mesh, const std::optional<Meridian>& meridian = {});
 
   const std::optional<Primitive>& built_in() const { return primitive_; }
   const std::shared_ptr<const HexahedralMesh>& mesh() const { return mesh_; }
@@ -36,12 +38,13 @@ class StructureShape {
   std::vector<Vec3> face_points(const std::string& face) const;
 
  private:
+  std::optional<Meridian> meridian_;  // of a mesh of quadrangles
   std::optional<Primitive> primitive_;
   std::shared_ptr<const HexahedralMesh> mesh_;
   std::shared_ptr<const MeshDistance> distance_;
 };
 
 /// Nothing for a gmsh mesh that was not read.
-std::optional<StructureShape> structure_shape(const fem::Mesh& mesh);
+std::optional<StructureShape> structure_shape(const fem::Mesh& mesh, const std::optional<Meridian>& meridian);
 
 }  // namespace undex::scene

@@ -25,7 +25,7 @@ Validator::Validator(Draft& draft)
       fluid_(draft.scene.fluid),
       dimension_(draft.scene.fluid.dimension),
       kept_(kept_part(draft.scene.fluid.symmetry.axis)) {
-  if (scene_.structure && draft.structure_shape_good) solid_ = structure_shape(scene_.structure->mesh);
+  if (scene_.structure && draft.structure_shape_good) solid_ = structure_shape(scene_.structure->mesh, scene_.meridian);
 }
 
 void Validator::run() {

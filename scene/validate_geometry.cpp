@@ -92,6 +92,18 @@ Primitive opened(const sph::Wall& wall) {
   }
   if (const auto* sphere = std::get_if<Sphere>(&wall.container))
     return Sphere{sphere->center, open("side") ? far : sphere->radius};
+  if (const auto* cone = std::get_if<Cone>(&wall.container)) {
+    // As long again, but not beyond its tip.
+    const double length = cone->high - cone->low, wider = cone->high_radius - cone->low_radius;
+    const auto further = [&](double radius, double by) { return by < 0 ? std::min(length, -radius / by * length) : length; };
+    Cone larger = *cone;
+    if (open("low")) larger.low -= further(cone->low_radius, -wider);
+    if (open("high")) larger.high += further(cone->high_radius, wider);
+    larger.low_radius = std::max(0.0, cone->radius_at(larger.low));
+    larger.high_radius = std::max(0.0, cone->radius_at(larger.high));
+    if (open("side")) larger.low_radius = larger.high_radius = far;
+    return larger;
+  }
   Cylinder larger = std::get<Cylinder>(wall.container);
   if (open("side")) larger.radius = far;
   if (open("low")) larger.low = -far;
@@ -101,10 +113,31 @@ Primitive opened(const sph::Wall& wall) {
 
 }  // namespace
 
+/// Where the images in a cone's side are not those of an exact mirror: at a symmetry plane that it meets, in its tip.
+void Validator::conical(const Cone& cone, const std::string& path, const Node& node) {
+  if (fluid_.symmetry.axis[static_cast<std::size_t>(cone.axis)] && cone.low <= 0)
+    complain(node, "shape",
+             path + ": the cone's side meets the symmetry plane " + "xyz"[cone.axis] +
+                 " = 0 at a slant, where the images in both are not each other's; leave that plane out");
+  if (!draft_.spacing_good) return;
+  const double support = sph::with_kernel(fluid_.numerics.kernel, [](auto kernel) { return double(kernel.support); });
+  const double reach = support * fluid_.numerics.eta * fluid_.lattice.spacing,
+               narrow = std::min(cone.low_radius, cone.high_radius);
+  if (narrow < reach * (1 - 1e-9))
+    warn(
+        node, "shape",
+        path + ": the cone narrows to a radius of " + rounded(narrow) + " m, and the water's kernel reaches " + rounded(reach) +
+            " m: in its tip water meets images across the axis, its pressure is off, and a slender tip may stop the run; end the "
+            "cone where it is wider, or make the spacing smaller");
+}
+
 void Validator::walls() {
   for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
     if (!draft_.wall_shape_good[w]) return;
   if (fluid_.walls.empty()) return;
+  for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
+    if (const auto* cone = std::get_if<Cone>(&fluid_.walls[w].container); cone && cone->low_radius != cone->high_radius)
+      conical(*cone, "walls." + fluid_.walls[w].name, *draft_.wall_nodes[w]);
   for (std::size_t i = 0; i < fluid_.bodies.size(); ++i) {
     if (!usable_[i]) continue;
     const sph::Body& body = fluid_.bodies[i];

@@ -42,6 +42,7 @@ void Validator::probe(const Probe& probe, const Node& node) {
   for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
     if (!draft_.wall_shape_good[w]) return;
   if (probe.kind == Probe::Kind::wall) {
+    if (scene_.structure && !solid_) return;  // what is wrong with it is said elsewhere
     const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
     if (fluid_.walls.empty() && !wet && scene_.solids.bodies.empty()) {
       complain(

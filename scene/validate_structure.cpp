@@ -137,7 +137,9 @@ void Validator::halved(const std::string& path, const Node& node, const Primitiv
   const Bounds extent = bounds(shape, dimension_);
   for (int axis = 0; axis < dimension_; ++axis) {
     const double low = extent.low[axis], high = extent.high[axis];
-    if (!fluid_.symmetry.axis[axis] || low >= 0 || std::abs(low + high) <= 1e-9 * (high - low)) continue;
+    const auto* cone = std::get_if<Cone>(&shape);
+    const bool halves = !cone || cone->axis != axis || cone->low_radius == cone->high_radius;
+    if (!fluid_.symmetry.axis[axis] || low >= 0 || (halves && std::abs(low + high) <= 1e-9 * (high - low))) continue;
     complain(node, "shape",
              path + ": the symmetry plane " + "xyz"[axis] + " = 0 does not halve it (it runs from " + rounded(low) + " to " +
                  rounded(high) + " m); centre the whole " + (path == "structure" ? "structure" : "solid") + " on the plane");

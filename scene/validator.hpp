@@ -61,6 +61,7 @@ class Validator {
   bool part(const Part& one);
   void overlaps();
   void walls();
+  void conical(const Cone& cone, const std::string& path, const Node& node);
 
   // validate_structure.cpp
   void structure();

@@ -248,16 +248,17 @@ inline materials::HydrostaticColumn hydrostatic_column(const Body& body, const V
 /// A rigid container: fluid stays inside `container`; faces that are not open carry dummy particles.
 struct Wall {
   std::string name;
-  Primitive container;                         ///< Box, Cylinder or Sphere (the fluid's side is inside)
-  std::map<std::string, FaceCondition> faces;  ///< box: "x_low" .. "z_high"; cylinder: "side", "low", "high"; sphere: "side"
+  Primitive container;  ///< Box, Cylinder, Cone or Sphere (the fluid's side is inside)
+  std::map<std::string, FaceCondition>
+      faces;  ///< box: "x_low" .. "z_high"; cylinder, cone: "side", "low", "high"; sphere: "side"
 };
 template <class Visit>
 void describe(Wall& wall, Visit&& visit) {
   visit(wall.name, {.name = "name", .needed = true, .remedy = "every wall has a name", .form = Form::name});
   visit(ByHand{}, {.name = "shape",
                    .needed = true,
-                   .remedy = "a box, cylinder or sphere round the fluid",
-                   .values = "box, cylinder, sphere",
+                   .remedy = "a box, cylinder, cone or sphere round the fluid",
+                   .values = "box, cylinder, cone, sphere",
                    .meaning = "the inside"});
   visit(ByHand{}, {.name = "condition",
                    .rule = "\"free_slip\"",

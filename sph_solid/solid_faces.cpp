@@ -1,6 +1,7 @@
 #include "sph_solid/solid_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace undex::solid {
 namespace {
@@ -37,6 +38,13 @@ std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension
     const Vec3 r = radial(cylinder->axis, cylinder->center);
     faces.push_back({"side", {cylinder->radius - r.norm(), r.normalized()}});
     ends(cylinder->axis, cylinder->low, cylinder->high, "low", "high");
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    const Vec3 r = radial(cone->axis, cone->center);
+    const double slope = (cone->high_radius - cone->low_radius) / (cone->high - cone->low), cosine = 1.0 / std::hypot(1.0, slope);
+    faces.push_back(
+        {"side",
+         {(cone->radius_at(x[cone->axis]) - r.norm()) * cosine, cosine * (r.normalized() - slope * Vec3::Unit(cone->axis))}});
+    ends(cone->axis, cone->low, cone->high, "low", "high");
   } else {
     const TubeShape& tube = std::get<TubeShape>(shape);
     const Vec3 r = radial(tube.axis, tube.center);

@@ -128,9 +128,24 @@ WetLine round_line(const Vec3& center, double radius) {
           2.0 * half * radius, [=](const Vec3& x) { return Vec3((x - center).normalized()); }};
 }
 
-/// Those of a box or a sphere (in_meridian allows no other).
+/// Those of a cone, its side from the low end to the high one.
+std::vector<WetLine> wet_lines(const Cone& cone, const std::vector<std::string>& names) {
+  const Vec3 low(cone.low_radius, cone.low, 0.0), high(cone.high_radius, cone.high, 0.0), along = (high - low).normalized();
+  std::vector<WetLine> lines;
+  for (const std::string& name : names) {
+    if (name == "side") lines.push_back(straight_line(low, high, {along[1], -along[0], 0.0}));
+    if (name == "low") lines.push_back(straight_line({0.0, cone.low, 0.0}, low, -Vec3::UnitY()));
+    if (name == "high") lines.push_back(straight_line({0.0, cone.high, 0.0}, high, Vec3::UnitY()));
+  }
+  std::erase_if(lines, [](const WetLine& line) { return !(line.length > 0.0); });  // a tip
+  return lines;
+}
+
+/// Those of a box, a sphere or a cone (in_meridian allows no other).
 std::vector<WetLine> wet_lines(const Body& body, const sph::Settings& around) {
   if (const auto* ball = std::get_if<Sphere>(&body.shape.base)) return {round_line(ball->center, ball->radius)};
+  if (const auto* cone = std::get_if<Cone>(&body.shape.base))
+    return wet_lines(*cone, body.wet.empty() ? solid_faces(*cone, 2) : body.wet);
   const Box& box = std::get<Box>(body.shape.base);
   const bool whole = box.low[0] < 0.0, halved = around.symmetry.axis[1] && box.low[1] <= 0.0;  // about the axis, along it
   const double inner = whole ? 0.0 : box.low[0], outer = box.high[0], low = halved ? 0.0 : box.low[1], high = box.high[1];

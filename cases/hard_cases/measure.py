@@ -170,6 +170,13 @@ def encloses(run, radius):
     return [("nobody outside", out == 0, str(out))]
 
 
+def encloses_in_cone(run, low_radius, high_radius, low, high):
+    time, f = run.snapshots()[-1]
+    side = low_radius + (high_radius - low_radius) * (f["z"] - low) / (high - low)
+    out = np.sum((f["x"] > side) | (f["z"] < low) | (f["z"] > high))
+    return [("nobody outside", out == 0, str(out))]
+
+
 def quiescent(run, speed_limit=1.5, pressure_limit=0.05):
     found = []
     for time, f in run.snapshots():
@@ -241,6 +248,7 @@ CASES = {
     "axis_jet": lambda run, get: closes(run, 0.01, 1.205 * rayleigh, 0.1, "z", ("x",)),
     "axis_vacuum": lambda run, get: flies_apart(run),
     "axis_vessel": lambda run, get: encloses(run, 0.04),
+    "axis_cone": lambda run, get: encloses_in_cone(run, 0.01, 0.04, 0.0, 0.06),
     "shock_on_plane": lambda run, get: against(run, get("shock_on_shock"), 1e-6, "plane and two shocks"),
     "shock_on_wall": lambda run, get: against(run, get("shock_on_plane"), 0.05, "wall and plane"),
 }

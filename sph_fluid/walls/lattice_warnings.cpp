@@ -55,6 +55,14 @@ void warn_of_slip_walls(const Settings& settings, std::vector<std::string>& warn
   }
   for (const SlipFaces::Round& wall : faces.round) {
     if (grid.rings && grid.axis == wall.axis && off(wall.radius, grid.ring_width) < 1e-6) continue;
+    if (wall.sine != 0.0) {
+      std::snprintf(
+          text, sizeof text,
+          "the lattice meets the slip side of the cone of radius %g m at its low end in steps, and pressure beside it is off",
+          wall.radius);
+      warnings.push_back(text);
+      continue;
+    }
     std::snprintf(text, sizeof text,
                   "the lattice meets the round slip wall of radius %g m in steps, and pressure beside it is off%s", wall.radius,
                   wall.axis < 0 ? ""

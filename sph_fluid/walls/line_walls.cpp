@@ -36,23 +36,34 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
       }
     }
   } else if (const auto* cylinder = std::get_if<Cylinder>(&container)) {
-    Vec3 radial = x - cylinder->center;
-    radial[cylinder->axis] = 0.0;
-    if (dimension < 3) radial[2] = 0.0;
-    const double r = radial.norm();
-    if (r > cylinder->radius) {
+    return beyond(Cone{.axis = cylinder->axis,
+                       .center = cylinder->center,
+                       .low_radius = cylinder->radius,
+                       .high_radius = cylinder->radius,
+                       .low = cylinder->low,
+                       .high = cylinder->high},
+                  x, dimension);
+  } else if (const auto* cone = std::get_if<Cone>(&container)) {
+    Vec3 radial = x - cone->center;
+    radial[cone->axis] = 0.0;
+    for (int a = dimension; a < 3; ++a) radial[a] = 0.0;
+    const double r = radial.norm(), z = x[cone->axis], radius = cone->radius_at(z);
+    if (r > radius) {
+      // Along the side's normal; straight away from the axis where it does not widen.
+      const double slope = (cone->high_radius - cone->low_radius) / (cone->high - cone->low);
+      const double share = (r - radius) / (1.0 + slope * slope);
       result.faces.push_back("side");
-      away += radial * ((r - cylinder->radius) / r);
+      away += radial * (share / r);
+      away[cone->axis] -= slope * share;
     }
-    if (dimension == 3) {
-      const double z = x[cylinder->axis];
-      if (z < cylinder->low) {
+    if (cone->axis < dimension) {
+      if (z < cone->low) {
         result.faces.push_back("low");
-        away[cylinder->axis] = z - cylinder->low;
+        away[cone->axis] = z - cone->low;
       }
-      if (z > cylinder->high) {
+      if (z > cone->high) {
         result.faces.push_back("high");
-        away[cylinder->axis] = z - cylinder->high;
+        away[cone->axis] = z - cone->high;
       }
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&container)) {
@@ -63,7 +74,7 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
       away = radial * ((r - sphere->radius) / r);
     }
   } else {
-    throw std::invalid_argument("a wall must be a box, a cylinder or a sphere");
+    throw std::invalid_argument("a wall must be a box, a cylinder, a cone or a sphere");
   }
   result.distance = away.norm();
   const int faces = int(result.faces.size());
@@ -74,7 +85,7 @@ Beyond beyond(const Primitive& container, const Vec3& x, int dimension) {
       for (int a = 0; a < 3; ++a)
         if (away[a] != 0.0) (first.isZero() ? first : second)[a] = 1.0;
     } else {
-      const int axis = std::get<Cylinder>(container).axis;
+      const int axis = std::get<Cone>(container).axis;
       first[axis] = 1.0;
       second = away - away.dot(first) * first;
     }

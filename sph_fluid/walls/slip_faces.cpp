@@ -7,6 +7,42 @@
 #include "sph_fluid/walls/reflection.hpp"
 
 namespace undex::sph {
+namespace {
+
+SlipFaces::Round side_of(const Cone& cone, bool has_ends) {
+  const double wider = cone.high_radius - cone.low_radius, length = std::hypot(wider, cone.high - cone.low);
+  return {.center = cone.center,
+          .radius = cone.low_radius,
+          .axis = cone.axis,
+          .low = has_ends ? cone.low : -1e300,
+          .high = has_ends ? cone.high : 1e300,
+          .origin = cone.low,
+          .sine = wider / length,
+          .cosine = wider == 0.0 ? 1.0 : (cone.high - cone.low) / length};
+}
+
+/// A place beside a round wall: along the wall's normal the distance from the middle of a sphere, from the line through a cone's
+/// axis at `origin`; the wall lies at `wall`.
+struct Beside {
+  double r, across, along, wall;  ///< [m]; r: distance from the axis or the middle
+  Vec3 normal;                    ///< where r is not 0
+};
+Beside beside(const SlipFaces::Round& wall, const Vec3& x) {
+  const Vec3 away = wall.away(x);
+  const double r = away.norm(), past = wall.axis < 0 ? 0.0 : x[wall.axis] - wall.origin;
+  Beside place{.r = r,
+               .across = r * wall.cosine - past * wall.sine,
+               .along = r * wall.sine + past * wall.cosine,
+               .wall = wall.radius * wall.cosine,
+               .normal = away / r * wall.cosine};
+  if (wall.axis >= 0) place.normal[wall.axis] = -wall.sine;
+  return place;
+}
+
+/// In how many directions the wall is curved, as a scene of that dimension sees it.
+int curved(const SlipFaces::Round& wall, int dimension) { return dimension - 1 - (wall.axis >= 0 && wall.axis < dimension); }
+
+}  // namespace
 
 SlipFaces slip_faces(const Settings& settings) {
   SlipFaces result;
@@ -17,24 +53,38 @@ SlipFaces slip_faces(const Settings& settings) {
       return found == wall.faces.end() || found->second == FaceCondition::free_slip;
     };
     const Bounds window = bounds(wall.container, settings.dimension);
+    const auto is_cut = [&](int axis) { return settings.symmetry.axis[axis] && window.low[axis] <= 0.0; };
     const auto add = [&](int axis, const std::string& low, const std::string& high) {
       // A symmetry plane stands in for what it cuts off.
-      const bool cut = settings.symmetry.axis[axis] && window.low[axis] <= 0.0;
-      const bool with_low = slips(low) && !cut, with_high = slips(high);
+      const bool cut = is_cut(axis), with_low = slips(low) && !cut, with_high = slips(high);
       if (!with_low && !with_high) return;
       const double low_at = cut ? 0.0 : with_low ? window.low[axis] : -1e300;
       const double high_at = with_high ? window.high[axis] : 1e300;
       result.plane.push_back({.axis = axis, .low = low_at, .high = high_at, .symmetric = cut, .window = window});
     };
+    const auto add_cone = [&](const Cone& cone) {
+      const bool ends = cone.axis < settings.dimension;  // in a plane across its axis it has none
+      const bool sides = settings.dimension > 1 || !ends;
+      const std::size_t before = result.plane.size();
+      if (ends) add(cone.axis, "low", "high");
+      if (!sides || !slips("side")) return;
+      result.round.push_back(side_of(cone, ends));
+      SlipFaces::Round& side = result.round.back();
+      if (side.sine == 0.0 || result.plane.size() == before) return;
+      side.ends = int(before);
+      result.plane.back().of_cone = true;
+      if (slips("low") && !is_cut(cone.axis)) side.edges.push_back({{cone.low_radius, cone.low}, {side.sine + 1.0, side.cosine}});
+      if (slips("high")) side.edges.push_back({{cone.high_radius, cone.high}, {1.0 - side.sine, -side.cosine}});
+    };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
-      const bool ends = settings.dimension == 3;  // in the plane it has none
-      if (slips("side"))
-        result.round.push_back({.center = cylinder->center,
-                                .radius = cylinder->radius,
-                                .axis = cylinder->axis,
-                                .low = ends ? cylinder->low : -1e300,
-                                .high = ends ? cylinder->high : 1e300});
-      if (ends) add(cylinder->axis, "low", "high");
+      add_cone({.axis = cylinder->axis,
+                .center = cylinder->center,
+                .low_radius = cylinder->radius,
+                .high_radius = cylinder->radius,
+                .low = cylinder->low,
+                .high = cylinder->high});
+    } else if (const auto* cone = std::get_if<Cone>(&wall.container)) {
+      add_cone(*cone);
     } else if (const auto* sphere = std::get_if<Sphere>(&wall.container)) {
       if (slips("side")) result.round.push_back({.center = sphere->center, .radius = sphere->radius});
     } else {
@@ -53,8 +103,12 @@ double clearance(const SlipFaces& faces, const Bounds& box) {
     least = std::min({least, pair.symmetric ? 1e300 : box.low[pair.axis] - pair.low, pair.high - box.high[pair.axis]});
   for (const SlipFaces::Round& wall : faces.round) {
     Vec3 away = (box.low - wall.center).cwiseAbs().cwiseMax((box.high - wall.center).cwiseAbs());
-    if (wall.axis >= 0) away[wall.axis] = 0.0;
-    least = std::min(least, wall.radius - away.norm());
+    double narrower = 0.0;
+    if (wall.axis >= 0) {
+      away[wall.axis] = 0.0;
+      narrower = std::min((box.low[wall.axis] - wall.origin) * wall.sine, (box.high[wall.axis] - wall.origin) * wall.sine);
+    }
+    least = std::min(least, wall.radius * wall.cosine - (away.norm() * wall.cosine - narrower));
   }
   return std::max(least, 0.0);
 }
@@ -69,27 +123,32 @@ bool SlipFaces::Round::is_beside(const Vec3& x, double beyond) const {
   return axis < 0 || (x[axis] >= low - beyond && x[axis] <= high + beyond);
 }
 
+bool SlipFaces::Round::shows(const Vec3& x) const {
+  const Eigen::Vector2d place(away(x).norm(), axis < 0 ? 0.0 : x[axis]);
+  return std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return (place - edge.at).dot(edge.side) > 0.0; });
+}
+
 std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, double depth, int dimension) {
   if (!wall.is_beside(x, depth)) return {};
-  const Vec3 away = wall.away(x);
-  const double r = away.norm();
-  if (r <= wall.radius - depth || r > wall.radius) return {};
+  const Beside here = beside(wall, x);
+  if (here.across <= here.wall - depth || here.across > here.wall || here.r <= 0.0) return {};
+  const double behind = 2.0 * here.wall - here.across;
   Reflection image;
-  image.normal = away / r;
-  const double behind = 2.0 * wall.radius - r;
-  image.place = x + (behind - r) * image.normal;
-  const double wider = behind / r;
-  image.stretch = image_volume(wall.axis < 0 && dimension == 3 ? wider * wider : wider);
+  image.normal = here.normal;
+  image.place = x + (behind - here.across) * image.normal;
+  const double wider = (behind * wall.cosine + here.along * wall.sine) / here.r;
+  const int times = curved(wall, dimension);
+  if (times > 0) image.stretch = image_volume(times == 2 ? wider * wider : wider);
   return image;
 }
 
 std::optional<Crossing> crossing(const SlipFaces::Round& wall, const Vec3& x, double far) {
   if (!wall.is_beside(x, far)) return {};
-  const Vec3 away = wall.away(x);
-  const double r = away.norm();
-  if (r <= wall.radius || r > wall.radius + far) return {};
-  const Vec3 normal = away / r, foot = x - (r - wall.radius) * normal;
-  return Crossing{foot - (r - wall.radius) * normal, normal, foot};
+  const Beside here = beside(wall, x);
+  const double beyond = here.across - here.wall;
+  if (beyond <= 0.0 || beyond > far) return {};
+  const Vec3 foot = x - beyond * here.normal;
+  return Crossing{foot - beyond * here.normal, here.normal, foot};
 }
 
 std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension) {

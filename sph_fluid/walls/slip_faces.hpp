@@ -14,21 +14,34 @@ struct SlipFaces {
   /// Faces across one axis; either may be missing. Between both stand images of images, as in two mirrors.
   struct Pair {
     int axis;
-    double low, high;  ///< [m]; -+1e300 where there is none
-    bool symmetric;    ///< is `low` a symmetry plane, whose own images are not stored?
-    Bounds window;     ///< of the container
+    double low, high;      ///< [m]; -+1e300 where there is none
+    bool symmetric;        ///< is `low` a symmetry plane, whose own images are not stored?
+    Bounds window;         ///< of the container
+    bool of_cone = false;  ///< does a cone that widens end here? Their images are found together
   };
-  /// The side of a cylinder, or a sphere.
+  /// A sphere, or the side of a cone; that of a cylinder does not widen.
   struct Round {
+    /// Where a cone's side meets an end that is a slip wall too, in (distance from the axis, along it). The images behind this
+    /// edge are parted by the line that halves the angle outside: what lies towards `side` shows the side, the rest the end.
+    struct Edge {
+      Eigen::Vector2d at, side;
+    };
+
     Vec3 center;
-    double radius;                      ///< [m]
-    int axis = -1;                      ///< of a cylinder
+    double radius;                      ///< [m]; of a cone at `origin`
+    int axis = -1;                      ///< of a cone
     double low = -1e300, high = 1e300;  ///< along it [m]
+    double origin = 0.0;                ///< [m]
+    double sine = 0.0, cosine = 1.0;    ///< of the angle between a cone's side and its axis
+    std::vector<Edge> edges{};          ///< of a cone that widens
+    int ends = -1;                      ///< then its ends in `plane`
 
     /// From the axis, or the middle, to x [m].
     Vec3 away(const Vec3& x) const;
-    /// Is x at most `beyond` [m] past a cylinder's ends?
+    /// Is x at most `beyond` [m] past a cone's ends?
     bool is_beside(const Vec3& x, double beyond) const;
+    /// Does an image at x show the side, and not an end?
+    bool shows(const Vec3& x) const;
   };
   std::vector<Round> round;
   std::vector<Pair> plane;
@@ -86,6 +99,33 @@ void images_in(const SlipFaces::Pair& faces, const Vec3& x, double depth, int di
     }
   }
   return;
+}
+
+/// Calls visit(Reflection, place it is an image of, that place's number) for all images in a cone's side and its ends; visit
+/// numbers them, x has -1. Edges are no right angles, and the image of an image depends on the order of the faces: images are
+/// mirrored on, in side and ends by turns, and stand where they lie on the part of the face that came last.
+template <class Visit>
+void images_about(const SlipFaces::Round& side, const SlipFaces::Pair& ends, const Vec3& x, double depth, int dimension,
+                  Visit visit) {
+  constexpr int most = 6;  // mirrors one after the other
+  struct Seen {
+    Vec3 place;
+    int number, mirrors;
+    bool in_side;
+  };
+  std::vector<Seen> seen{{x, -1, 0, false}};
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const Seen from = seen[k];
+    if (from.mirrors == most) continue;
+    const auto offer = [&](const Reflection& image, bool in_side) {
+      if (side.shows(image.place) == in_side)
+        seen.push_back({image.place, visit(image, from.place, from.number), from.mirrors + 1, in_side});
+    };
+    if (from.mirrors == 0 || !from.in_side)
+      if (const auto image = image_in(side, from.place, depth, dimension)) offer(*image, true);
+    if (from.mirrors == 0 || from.in_side)
+      images_in(ends, from.place, depth, dimension, [&](const Reflection& image) { offer(image, false); });
+  }
 }
 
 /// Where a place beyond a face belongs.

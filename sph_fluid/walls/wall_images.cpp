@@ -112,12 +112,19 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
   }
   for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
-      if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent);
+      if (wall.ends >= 0)
+        images_about(wall, faces.plane[wall.ends], at, depth, settings.dimension,
+                     [&](const Reflection& image, const Vec3& from, int of) {
+                       add(image, from, of < 0 ? parent : of);
+                       return int(images.size()) - 1;
+                     });
+      else if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent);
     });
   for (const SlipFaces::Pair& pair : faces.plane)
-    each([&](const Vec3& at, int parent) {
-      images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
-    });
+    if (!pair.of_cone)
+      each([&](const Vec3& at, int parent) {
+        images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
+      });
 }
 
 void WallImages::sort_from(std::uint32_t start, double width, CellList& cells) {

@@ -43,6 +43,7 @@ FURTHER = {
     "taylor_bar_fem/copper.toml": {"end_time": 10e-6},
     "taylor_bar_sph/copper.toml": COARSE_BAR,
     "taylor_bar_sph/updated.toml": COARSE_BAR,
+    "taylor_plate/axisymmetric.toml": {"end_time": 12e-6},
     "taylor_plate/case.toml": {"resolution.spacing": 0.002, "end_time": 12e-6},
     "taylor_plate/light.toml": {"end_time": 2e-6},
     "water_shock_tube/column.toml": {"resolution.spacing": 0.004},

@@ -21,6 +21,10 @@ TESTS = {
                                           "velocity_l1": 0.0065, "energy_error": 0.0035, "interface_impulse_error": 1e-12}),
     "taylor_plate_shell": ("taylor_plate", SHELL, {"cavitation_error": 0.02, "impulse_error": 0.0025, "end_impulse_error": 0.0025,
                                                    "velocity_l1": 0.0065, "energy_error": 0.008}),
+    "taylor_disc": ("taylor_plate/axisymmetric.toml", {}, {"cavitation_error": 0.02, "impulse_error": 0.0025, "end_impulse_error": 0.0025,
+                                                           "velocity_l1": 0.0065, "energy_error": 0.0035}),
+    "taylor_disc_shell": ("taylor_plate/axisymmetric.toml", {"structure.element": "shell", "structure.cells": "{radial = 4, along = 1}"}, {
+        "cavitation_error": 0.02, "impulse_error": 0.0025, "end_impulse_error": 0.0025, "velocity_l1": 0.0065, "energy_error": 0.008}),
     "taylor_plate_500MPa": ("taylor_plate", {"start.peak": 5e8, **SHELL, **JC}, {
         "cavitation_error": 0.07, "impulse_error": 0.003, "end_impulse_error": 0.003, "velocity_l1": 0.0035, "energy_error": 0.036}),
     # Lighter than the water of a third of a spacing: bounded, not accurate. With the step that its mass allows, and a smaller one.

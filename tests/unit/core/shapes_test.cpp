@@ -66,6 +66,42 @@ TEST(SignedDistance, Tube) {
   EXPECT_DOUBLE_EQ(distance(tube, 0, 6, 5), 5);
 }
 
+TEST(SignedDistance, Cone) {
+  const Cone cone{.axis = 1, .center = Vec3(1, 77, 0), .low_radius = 1, .high_radius = 4, .low = 0, .high = 4};  // 3, 4, 5
+  EXPECT_DOUBLE_EQ(distance(cone, 1, 0.5, 0), -0.5) << "to the low end";
+  EXPECT_DOUBLE_EQ(distance(cone, 1, -2, 0.5), 2);
+  EXPECT_DOUBLE_EQ(distance(cone, 1, 4, 6), 2) << "to the rim";
+  // From the side's middle, (2.5, 2), along its normal (4, -3)/5.
+  for (const double off : {-1.0, 0.5, 1.0}) {
+    EXPECT_NEAR(distance(cone, 1, 2 - 0.6 * off, 2.5 + 0.8 * off), off, 1e-14);
+    EXPECT_NEAR(distance(cone, 1 + 2.5 + 0.8 * off, 2 - 0.6 * off, 99, 2), off, 1e-14) << "a trapezium";
+    EXPECT_NEAR(distance(cone, 1 - 2.5 - 0.8 * off, 2 - 0.6 * off, 99, 2), off, 1e-14);
+  }
+  const Cone tip{.axis = 2, .center = Vec3::Zero(), .low_radius = 0, .high_radius = 1, .low = -1, .high = 0};
+  EXPECT_DOUBLE_EQ(distance(tip, 0, 0, -3), 2);
+}
+
+/// The gradient of the distance is the normal: of unit length, everywhere but where two faces are as near.
+TEST(SignedDistance, GradientOfAConeIsItsNormal) {
+  const Cone cone{.axis = 2, .center = Vec3(0.1, 0, 0), .low_radius = 2, .high_radius = 0.5, .low = -1, .high = 1};
+  const double length = std::hypot(2.0, 1.5), sine = -1.5 / length, cosine = 2.0 / length;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(-0.4, 0.4), turn(0, 2 * pi);
+  for (int i = 0; i < 200; ++i) {
+    const double z = share(random), angle = turn(random), off = 0.2 * share(random), r = cone.radius_at(z);
+    const Vec3 normal(cosine * std::cos(angle), cosine * std::sin(angle), -sine);
+    const Vec3 x = cone.center + Vec3(r * std::cos(angle), r * std::sin(angle), z) + off * normal;
+    EXPECT_NEAR(signed_distance(Primitive(cone), x, 3), off, 1e-13);
+    for (int a = 0; a < 3; ++a) {
+      const double step = 1e-5;
+      const Vec3 by = step * Vec3::Unit(a);
+      const double slope =
+          (signed_distance(Primitive(cone), x + by, 3) - signed_distance(Primitive(cone), x - by, 3)) / (2 * step);
+      EXPECT_NEAR(slope, normal[a], 1e-8);
+    }
+  }
+}
+
 TEST(SignedDistance, SubtractionIsALowerBoundOutside) {
   const Shape shell{Sphere{Vec3::Zero(), 2}, {Sphere{Vec3::Zero(), 1}}};
   EXPECT_DOUBLE_EQ(signed_distance(shell, Vec3(0.25, 0, 0), 3), 0.75);
@@ -76,11 +112,15 @@ TEST(SignedDistance, SubtractionIsALowerBoundOutside) {
 TEST(SignedDistance, IsOneLipschitz) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> at(-3, 3);
-  const std::vector<Primitive> shapes{Box{Vec3(-1, 0, 0), Vec3(1, 2, 1)}, Slab{2, 0, 1}, Sphere{Vec3(1, 0, 0), 1},
-                                      Cylinder{.axis = 1, .center = Vec3(0, 0, 1), .radius = 1, .low = -1, .high = 2},
-                                      TubeShape{.axis = 0, .center = Vec3::Zero(), .inner = 1, .outer = 2, .low = -1, .high = 1}};
+  const std::vector<Primitive> shapes{
+      Box{Vec3(-1, 0, 0), Vec3(1, 2, 1)},
+      Slab{2, 0, 1},
+      Sphere{Vec3(1, 0, 0), 1},
+      Cylinder{.axis = 1, .center = Vec3(0, 0, 1), .radius = 1, .low = -1, .high = 2},
+      TubeShape{.axis = 0, .center = Vec3::Zero(), .inner = 1, .outer = 2, .low = -1, .high = 1},
+      Cone{.axis = 0, .center = Vec3::Zero(), .low_radius = 0, .high_radius = 2, .low = -1, .high = 1}};
   for (const Primitive& shape : shapes)
-    for (int dimension = 1; dimension <= 3; ++dimension)
+    for (int dimension = std::holds_alternative<Cone>(shape) ? 2 : 1; dimension <= 3; ++dimension)
       for (int i = 0; i < 500; ++i) {
         Vec3 a(at(random), at(random), at(random)), b = a + 0.1 * Vec3(at(random), at(random), at(random));
         const double moved = (a - b).head(dimension).norm();
@@ -144,6 +184,21 @@ TEST(Volume, AgreesWithTheFormulas) {
        everything,
        2,
        1 - pi * 0.09},
+      {"truncated cone",
+       {Cone{.axis = 0, .center = c, .low_radius = 0.2, .high_radius = 0.5, .low = -0.3, .high = 0.6}, {}},
+       everything,
+       3,
+       pi * 0.9 / 3 * (0.04 + 0.1 + 0.25)},
+      {"quarter of a cone",
+       {Cone{.axis = 2, .center = Vec3::Zero(), .low_radius = 0.5, .high_radius = 0, .low = 0, .high = 0.6}, {}},
+       octant,
+       3,
+       pi * 0.6 / 12 * 0.25},
+      {"trapezium",
+       {Cone{.axis = 1, .center = c, .low_radius = 0.2, .high_radius = 0.5, .low = -0.3, .high = 0.6}, {}},
+       everything,
+       2,
+       0.7 * 0.9},
       {"half a ball by a slab", {Sphere{Vec3::Zero(), 1}, {Slab{0, 0, 5}}}, everything, 3, 2 * pi / 3},
   };
   for (const VolumeCase& each : cases) {
@@ -175,6 +230,11 @@ TEST(Volume, OfBodiesOfRevolution) {
   EXPECT_NEAR(volume_of_revolution({disc(0.5, 0, 0.2), {}}, everything), torus, 1e-5 * torus);
   const double hollow = pi * (0.7 * 0.7 - 0.4 * 0.4) * 0.5;
   EXPECT_NEAR(volume_of_revolution({Box{Vec3(0.4, 0, 0), Vec3(0.7, 0.5, 0)}, {}}, everything), hollow, 1e-14);
+  const double cone = pi * 0.5 / 3 * (0.01 + 0.04 + 0.16);
+  EXPECT_NEAR(volume_of_revolution(
+                  {Cone{.axis = 1, .center = Vec3::Zero(), .low_radius = 0.1, .high_radius = 0.4, .low = 0, .high = 0.5}, {}},
+                  everything),
+              cone, 1e-5 * cone);
   const double left = pi * 0.5 * 0.5 * 0.8 - ball;
   EXPECT_NEAR(volume_of_revolution({Box{Vec3(-0.5, -0.4, 0), Vec3(0.5, 0.4, 0)}, {disc(0, 0, 0.3)}}, everything), left,
               1e-5 * left);

@@ -116,7 +116,9 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"shell of a rod",
        "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\nshape = {type = \"rod\", radius = 1, low "
        "= 0, high = 9}\n",
-       "4:11: structure.element = \"shell\" needs a wall whose thickness direction is known, that of a tube, ring or plate; "
+       "4:11: structure.element = \"shell\" needs a wall whose thickness direction is known, that of a tube, ring or plate (or "
+       "of a rod "
+       "with dimension = \"axisymmetric\", a disc); "
        "use \"hexahedron\" for a rod\n"},
       {"wet face", with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inside\"]"), "25:7: structure.wet: unknown 'inside'"},
       {"cells that symmetry cannot halve", with(coupled_tube, "along = 20", "along = 21"),
@@ -196,7 +198,9 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "20:8: start.peak is of start.kind = \"plane_wave\"; leave it out or set the kind\n"},
       {"plate comparison without wave",
        two_gases + "[[probes]]\nname = \"a\"\npoint = 0.2\n[comparison]\nkind = \"taylor_plate\"\nprobe = \"a\"\n",
-       "23:8: comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\"\n"
+       "23:8: comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\", or of "
+       "type "
+       "\"rod\" along the wave: a disc\n"
        "24:9: comparison.probe must be a structure probe: the plate's velocity is compared\n"},
       {"free field of no charge", two_gases + "[comparison]\nkind = \"free_field\"\n",
        "20:8: comparison.kind = \"free_field\" needs dimension = 3 and two bodies: a \"sphere\" of gas or of a charge, and the "

@@ -61,6 +61,16 @@ TEST(Overrides, MistakesNameTheOption) {
   expect({"title", ""}, "-P title: cannot read the value ''; write a number, true, \"text\", [list] or {key = value}\n");
 }
 
+/// A word for the dimension is refused by itself where the scene has other coordinates: not each place of it.
+TEST(Overrides, ADimensionInAWordNeedsItsCoordinates) {
+  EXPECT_EQ(mistakes(two_gases, {{"dimension", "axisymmetric"}}),
+            "-P dimension: dimension = \"axisymmetric\" is written with 3 coordinates a place, and this scene with 1; write its "
+            "places, shapes and velocities with 3\n");
+  EXPECT_EQ(mistakes(coupled_tube, {{"dimension", "plane"}}),
+            "-P dimension: dimension = \"plane\" is written with 1 coordinates a place, and this scene with 3; write its places, "
+            "shapes and velocities with 1\n");
+}
+
 TEST(Overrides, MistakesOfFileAndOptionTogether) {
   EXPECT_EQ(mistakes(with(two_gases, "density = 0.125", "densty = 0.125"), {{"scheme.eeta", "1"}}),
             "-P scheme.eeta: unknown key 'eeta' in scheme; did you mean 'eta'?\n"

@@ -92,7 +92,7 @@ h_high = 3
 [[bodies]]
 name = "charge"
 shape = {type = "sphere", center = [0, 0, 0.001], radius = 0.01}
-subtract = [{type = "slab", axis = "z", low = 0.009, high = 1}, {type = "tube", axis = "y", inner_radius = 0.001, outer_radius = 0.002, low = 0, high = 1}, {type = "box", low = [0.005, 0, 0], high = [1, 1, 1]}]
+subtract = [{type = "slab", axis = "z", low = 0.009, high = 1}, {type = "tube", axis = "y", inner_radius = 0.001, outer_radius = 0.002, low = 0, high = 1}, {type = "box", low = [0.005, 0, 0], high = [1, 1, 1]}, {type = "cone", axis = "x", low_radius = 0, high_radius = 0.002, low = -0.004, high = 0.001}]
 material = {base = "petn", A = 6e11}
 spacing = 0.002
 velocity = [1, 0, 3]

@@ -230,6 +230,67 @@ TEST(WallImages, RoundWallFeelsThePressure) {
   }
 }
 
+/// The images in a cone's side and end fill the space behind their edge once, whatever the angle: about an edge of theta each
+/// place has 360/theta - 1 images in the mean, as far from the edge as itself, and none where the fluid is.
+TEST(WallImages, FillTheSpaceBehindTheEdgesOfACone) {
+  for (const double widening : {-0.8, -0.3, 0.4, 1.0}) {
+    const Cone cone{.axis = 1, .center = Vec3::Zero(), .low_radius = 2.0, .high_radius = 2.0 + widening, .low = 0, .high = 1};
+    Settings settings;
+    settings.dimension = 2;
+    Wall wall;
+    wall.name = "cone";
+    wall.container = cone;
+    settings.walls = {wall};
+    const SlipFaces faces = slip_faces(settings);
+    ASSERT_EQ(faces.round.size(), 1u);
+    ASSERT_EQ(faces.round[0].ends, 0);
+    for (const bool high : {false, true}) {
+      const Vec3 edge(high ? cone.high_radius : cone.low_radius, high ? 1.0 : 0.0, 0.0);
+      const double theta = 0.5 * std::numbers::pi + (high ? -1 : 1) * std::atan(widening);
+      int images = 0;
+      constexpr int places = 4000;
+      for (int k = 0; k < places; ++k) {
+        const double turn = theta * (k + 0.5) / places, r = 0.3 * (1 + k % 7) / 7.0;  // from the end to the side
+        const Vec3 x = edge + r * Vec3(-std::cos(turn), (high ? -1 : 1) * std::sin(turn), 0.0);
+        ASSERT_LT(signed_distance(Primitive(cone), x, 2), 0.0);
+        int number = 0;
+        images_about(faces.round[0], faces.plane[0], x, 0.5, 2, [&](const Reflection& image, const Vec3&, int) {
+          EXPECT_NEAR((image.place - edge).norm(), r, 1e-12);
+          EXPECT_GT(signed_distance(Primitive(cone), image.place, 2), -1e-12);
+          EXPECT_EQ(image.stretch, 1.0);
+          ++images;
+          return number++;
+        });
+      }
+      EXPECT_NEAR(double(images) / places, 2 * std::numbers::pi / theta - 1.0, 2e-3) << widening << (high ? " high" : " low");
+    }
+  }
+}
+
+/// In space the image lies as far behind the side of a cone, and its volume is that of the wider ring to the power 3/4.
+TEST(WallImages, InTheSideOfACone) {
+  Settings settings;
+  Wall wall;
+  wall.name = "cone";
+  wall.container = Cone{.axis = 2, .center = Vec3(1, 0, 0), .low_radius = 1, .high_radius = 4, .low = 0, .high = 4};  // 3, 4, 5
+  settings.walls = {wall};
+  const SlipFaces faces = slip_faces(settings);
+  const Vec3 foot = Vec3(1, 2.5, 2.0), normal(0, 0.8, -0.6);
+  const auto image = image_in(faces.round[0], foot - 0.25 * normal, 0.5, 3);
+  ASSERT_TRUE(image);
+  EXPECT_LT((image->place - (foot + 0.25 * normal)).norm(), 1e-14);
+  EXPECT_LT((image->normal - normal).norm(), 1e-14);
+  EXPECT_NEAR(image->stretch, std::pow(2.7 / 2.3, 0.75), 1e-14);
+  const auto crossed = crossing(faces.round[0], foot + 0.25 * normal, 0.5);
+  ASSERT_TRUE(crossed);
+  EXPECT_LT((crossed->place - (foot - 0.25 * normal)).norm(), 1e-14);
+  EXPECT_LT((crossed->foot - foot).norm(), 1e-14);
+  EXPECT_FALSE(crossing(faces.round[0], foot - 0.01 * normal, 0.5));
+  Bounds box;
+  box.include(foot - 0.25 * normal);
+  EXPECT_LE(clearance(faces, box), 0.25 + 1e-14);
+}
+
 /// A particle that is thrown through a moving wall comes back, and nothing is lost.
 TEST(WallImages, PutBackWhoCrossed) {
   Settings settings = tube_water(0.05, SchemeName::riemann);
