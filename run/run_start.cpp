@@ -230,7 +230,7 @@ class RunStart {
         obstacles_.push_back({std::string("the symmetry plane ") + letters[a] + " = 0", [a](const Vec3& x) { return x[a]; }});
   }
 
-  /// Radius up to which anything of a spherical donor has moved [m]: what is compressed, and what has another density. A free outer
+  /// Radius up to which anything of a spherical donor has moved [m]: what is compressed, or has another density. A free outer
   /// end is stirred by the pressure at rest. Where that may have come to, all counts as moved unless it is compressed.
   double front() const {
     const scene::Line& line = donor_.simulation().line()->line();
