@@ -230,21 +230,23 @@ class RunStart {
         obstacles_.push_back({std::string("the symmetry plane ") + letters[a] + " = 0", [a](const Vec3& x) { return x[a]; }});
   }
 
-  /// Radius up to which anything of a spherical donor has moved [m]. Where the pressure at rest stirs a free outer end, what
-  /// comes in from there is told apart only while it has not met what goes out: from then on all counts as moved.
+  /// Radius up to which anything of a spherical donor has moved [m]: what is compressed, or has another density. A free outer
+  /// end is stirred by the pressure at rest. Where that may have come to, all counts as moved unless it is compressed.
   double front() const {
     const scene::Line& line = donor_.simulation().line()->line();
-    const double end = mesh().node_radius().back();
     const scene::LineLayer& last = line.layers.back();
-    const sph::Body& outermost = donor_.scene().fluid.bodies[last.is_solid ? 0 : last.index];
-    const double rho = start_density(outermost), energy = start_energy(outermost);
-    const auto [pressure, sound] = std::visit([&](const auto& law) { return law.evaluate(rho, energy); }, outermost.material.law);
-    constexpr double share = 1e-4;  // of the density
-    const double compression = mesh().shock_front(threshold_);
-    if (line.closed[1] || std::abs(pressure) < 0.5 * share * rho * sound * sound)
-      return std::max(compression, mesh().front(share, end));
-    const double untouched = line.outer() - 1.2 * sound * donor_.time(), density = mesh().front(share, untouched);
-    return untouched <= 0 || density > 0.99 * untouched ? end : std::max(compression, density);
+    const double end = mesh().node_radius().back(), compressed = mesh().shock_front(threshold_);
+    double untouched = end;
+    if (!line.closed[1] && !last.is_solid) {
+      const sph::Body& body = donor_.scene().fluid.bodies[last.index];
+      const double rho = start_density(body), energy = start_energy(body);
+      untouched -= 1.2 * donor_.time() *
+                   std::visit([&](const auto& law) { return law.evaluate(rho, energy).sound_speed; }, body.material.law);
+    }
+    const double changed = untouched > 0 ? mesh().front(1e-4, untouched) : 0.0;
+    const bool mixed = untouched < end && changed > 0.99 * untouched;
+    if (mixed) return compressed > 0.98 * untouched ? compressed : end;
+    return std::max(compressed, changed);
   }
 
   ParticleState particles() const { return {donor_.scene(), donor_.simulation(), first_places_, threshold_, widest_}; }
