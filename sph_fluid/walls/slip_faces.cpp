@@ -24,19 +24,23 @@ SlipFaces::Round side_of(const Cone& cone, bool has_ends) {
 /// A place beside a round wall: along the wall's normal the distance from the middle of a sphere, from the line through a cone's
 /// axis at `origin`; the wall lies at `wall`.
 struct Beside {
+  Vec3 away;
   double r, across, along, wall;  ///< [m]; r: distance from the axis or the middle
-  Vec3 normal;                    ///< where r is not 0
 };
 Beside beside(const SlipFaces::Round& wall, const Vec3& x) {
   const Vec3 away = wall.away(x);
   const double r = away.norm(), past = wall.axis < 0 ? 0.0 : x[wall.axis] - wall.origin;
-  Beside place{.r = r,
-               .across = r * wall.cosine - past * wall.sine,
-               .along = r * wall.sine + past * wall.cosine,
-               .wall = wall.radius * wall.cosine,
-               .normal = away / r * wall.cosine};
-  if (wall.axis >= 0) place.normal[wall.axis] = -wall.sine;
-  return place;
+  return {.away = away,
+          .r = r,
+          .across = r * wall.cosine - past * wall.sine,
+          .along = r * wall.sine + past * wall.cosine,
+          .wall = wall.radius * wall.cosine};
+}
+/// The wall's, where r is not 0.
+Vec3 normal_at(const SlipFaces::Round& wall, const Beside& place) {
+  Vec3 normal = place.away / place.r * wall.cosine;
+  if (wall.axis >= 0) normal[wall.axis] = -wall.sine;
+  return normal;
 }
 
 /// In how many directions the wall is curved, as a scene of that dimension sees it.
@@ -134,7 +138,7 @@ std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, 
   if (here.across <= here.wall - depth || here.across > here.wall || here.r <= 0.0) return {};
   const double behind = 2.0 * here.wall - here.across;
   Reflection image;
-  image.normal = here.normal;
+  image.normal = normal_at(wall, here);
   image.place = x + (behind - here.across) * image.normal;
   const double wider = (behind * wall.cosine + here.along * wall.sine) / here.r;
   const int times = curved(wall, dimension);
@@ -146,9 +150,9 @@ std::optional<Crossing> crossing(const SlipFaces::Round& wall, const Vec3& x, do
   if (!wall.is_beside(x, far)) return {};
   const Beside here = beside(wall, x);
   const double beyond = here.across - here.wall;
-  if (beyond <= 0.0 || beyond > far) return {};
-  const Vec3 foot = x - beyond * here.normal;
-  return Crossing{foot - beyond * here.normal, here.normal, foot};
+  if (beyond <= 0.0 || beyond > far || here.r <= 0.0) return {};
+  const Vec3 normal = normal_at(wall, here), foot = x - beyond * normal;
+  return Crossing{foot - beyond * normal, normal, foot};
 }
 
 std::optional<Crossing> crossing(const SlipFaces::Pair& faces, const Vec3& x, double far, int dimension) {

@@ -45,7 +45,19 @@ TEST(Walls, PressurisedBoxIsAtRest) {
       }
 }
 
-/// The same in a cylinder: rings at the wall are quiet, a Cartesian lattice cut by the wall is not.
+/// In the plane a cylinder along an axis of it is a strip, with plane sides and ends.
+TEST(Walls, PressurisedStripIsAtRest) {
+  for (const FaceCondition condition : {FaceCondition::free_slip, FaceCondition::no_slip}) {
+    const Cylinder strip{.axis = 0, .center = Vec3::Zero(), .radius = 0.3, .low = -0.25, .high = 0.25};
+    Wall wall;
+    wall.name = "strip";
+    wall.container = strip;
+    wall.faces = {{"side", condition}, {"low", condition}, {"high", condition}};
+    EXPECT_LT(restlessness(pressurised(2, Shape{strip, {}}, wall), 1e8, [](const Vec3&) { return true; }), 1e-7);
+  }
+}
+
+/// In a cylinder: rings at the wall are quiet, a Cartesian lattice cut by the wall is not.
 TEST(Walls, PressurisedCylinder) {
   const Cylinder cylinder{2, Vec3::Zero(), 0.5, -9, 9};
   Wall wall;
