@@ -25,7 +25,19 @@ std::vector<Section> make_schema() {
       {"faces.box", {word("x_low"), word("x_high"), word("y_low"), word("y_high"), word("z_low"), word("z_high")}},
       {"faces.cylinder", {word("side"), word("low"), word("high")}},
       {"faces.sphere", {word("side")}},
-      {"comparison", {word("kind"), word("probe"), word("reference"), word("solution"), position("window"), length("core")}},
+      {"comparison",
+       {word("kind"),
+        word("probe"),
+        word("reference"),
+        word("solution"),
+        position("window"),
+        length("core"),
+        word("explosive"),
+        {.name = "charge_mass", .unit = "kg", .range = Range::positive()},
+        word("peak"),
+        word("decay"),
+        word("impulse"),
+        word("energy_flux")}},
   };
   for_each_table([&](const std::string& name, const char* summary, const auto& record, const char* kind) {
     std::vector<Key> keys;
