@@ -155,7 +155,7 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
     push_in_.assign(n, 0.0);
     push_out_.assign(n, 0.0);
   }
-  pressures(n, 0.0, r_, u_, rho_, e_, p_, q_);
+  pressures(0, n, 0.0, r_, u_, rho_, e_, p_, q_);
   inner_start_pressure_ = p_[0];
   outer_start_pressure_ = p_[n - 1];
   fill_new();
@@ -187,20 +187,21 @@ double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double s
   return inner_start_pressure_ - rho * sound * (u - inner_start_velocity_);
 }
 
-void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u,
+void Lagrangian1D::pressures(int begin, int end, double time, const std::vector<double>& r, const std::vector<double>& u,
                              const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p,
                              std::vector<double>& q) {
   for (std::size_t k = 0; k < blocks_.size() && blocks_[k].begin < end; ++k) {
     const Block& block = blocks_[k];
-    const int stop = std::min(block.end, end);
+    const int start = std::max(block.begin, begin), stop = std::min(block.end, end);
+    if (start >= stop) continue;
     if (const auto* solid = std::get_if<Solid>(&layers_[k].law)) {
-      solid_pressures(*solid, block.begin, stop, rho, e, p);
+      solid_pressures(*solid, start, stop, rho, e, p);
       continue;
     }
     const FluidLaw& fluid = std::get<FluidLaw>(layers_[k].law);
     if (const auto& burn = layers_[k].burn) {
       const auto& products = std::get<materials::Jwl>(fluid);
-      for (int i = block.begin; i < stop; ++i) {
+      for (int i = start; i < stop; ++i) {
         // The part that burns by compression is not kept when the zone expands: kept, every oscillation of
         // the unburned charge, however small, would burn some more of it, until it detonates of itself.
         const double burned = burn->fraction(Vec3(start_middle_[i], 0.0, 0.0), time, rho[i] / start_density_[i]);
@@ -212,7 +213,7 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
     }
     std::visit(
         [&](const auto& law) {
-          for (int i = block.begin; i < stop; ++i) {
+          for (int i = start; i < stop; ++i) {
             const materials::PressureSound state = law.evaluate(rho[i], e[i]);
             p[i] = state.pressure;
             c_[i] = std::max(state.sound_speed, block.stiffest_sound);
@@ -225,8 +226,8 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
 
   const int n = cells();
   const int with_neighbour = std::min(end + 1, n);
-  for (int i = 0; i < with_neighbour; ++i) slope_[i] = (u[i + 1] - u[i]) / (r[i + 1] - r[i]);
-  for (int i = 0; i < end; ++i) {
+  for (int i = std::max(begin - 1, 0); i < with_neighbour; ++i) slope_[i] = (u[i + 1] - u[i]) / (r[i + 1] - r[i]);
+  for (int i = begin; i < end; ++i) {
     const double closing = u[i] - u[i + 1];
     q[i] = 0.0;
     if (!(closing > 0.0)) continue;
@@ -234,7 +235,7 @@ void Lagrangian1D::pressures(int end, double time, const std::vector<double>& r,
     double psi = 0.0;
     if (options_.limiter) {
       const double below = i > 0 ? slope_[i - 1] / slope_[i] : 1.0;
-      const double above = i + 1 < n ? slope_[i + 1] / slope_[i] : 1.0;
+      const double above = i + 1 < n && i != front_cell_ ? slope_[i + 1] / slope_[i] : 1.0;
       psi = std::max(0.0, std::min({0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0}));
     }
     q[i] =
@@ -349,21 +350,25 @@ double Lagrangian1D::stable_step() const {
                                       (node_mass_[end] * (r_[end] - r_[end - 1])));
   }
   shortest *= options_.courant;
+  if (front_is_fitted()) shortest = std::min(shortest, step_to_layers_end());
   if (stiffest > 0.0) shortest = std::min(shortest, std::sqrt(0.2 / stiffest));
   return last_step_ > 0.0 ? std::min(shortest, 1.2 * last_step_) : shortest;
 }
 
 void Lagrangian1D::step(double dt) {
   const int n = cells();
-  const int cell_end = std::min(active_ + 2, n);
-  const int node_end = cell_end + 1;
+  // News goes two nodes on in a step, but no farther than to the layer in which its front will be followed.
+  const int followed = next_followed_layer();
+  const int held_back = followed == layers() ? n + 1 : blocks_[followed].begin + (still_waits(followed) ? 0 : 1);
+  const int cell_end = front_is_fitted() ? front_cell_ + 1 : std::min({active_ + 2, n, held_back});
+  const int node_end = front_is_fitted() ? cell_end + 1 : std::min(cell_end + 1, held_back);
   const bool held_inner = inner_ == Boundary::rigid, held_outer = outer_ == Boundary::rigid;
   const bool solid = !solids_.deviator.empty();
 
   // Total pressures at the two ends outside of the mesh, at the start of the step.
   double below = held_inner ? 0.0 : outside_pressure(false, u_[0], rho_[0], c_[0]);
   double above = held_outer ? 0.0 : outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1]);
-  const auto accelerate = [&](const auto& total) {
+  const auto accelerate = [&](const auto& total, double front_speed) {
     for (int i = 0; i < node_end; ++i) {
       const double inside = i > 0 ? total(i - 1) : below, outside = i < n ? total(i) : above;
       u_new_[i] = u_[i] + dt / node_mass_[i] * area_[i] * (inside - outside);
@@ -373,11 +378,14 @@ void Lagrangian1D::step(double dt) {
         u_new_[i] += dt / node_mass_[i] * ((i > 0 ? push_out_[i - 1] : 0.0) + (i < n ? push_in_[i] : 0.0));
     if (held_inner) u_new_[0] = 0.0;
     if (held_outer && node_end > n) u_new_[n] = 0.0;
-    for (int i = 0; i < node_end; ++i) r_new_[i] = r_[i] + 0.5 * dt * (u_[i] + u_new_[i]);
+    if (front_is_fitted()) move_front(dt, front_speed, total(front_cell_));
+    const int moved = front_is_fitted() ? front_cell_ + 1 : node_end;
+    for (int i = 0; i < moved; ++i) r_new_[i] = r_[i] + 0.5 * dt * (u_[i] + u_new_[i]);
   };
   const auto compress = [&](const auto& total) {
     double swept = area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
-    for (int i = 0; i < cell_end; ++i) {
+    const int whole = front_is_fitted() ? front_cell_ : cell_end;
+    for (int i = 0; i < whole; ++i) {
       const double next = area_[i + 1] * (0.5 * dt * (u_[i + 1] + u_new_[i + 1]));
       e_new_[i] = e_[i] - total(i) * (next - swept) / cell_mass_[i];
       swept = next;
@@ -385,6 +393,7 @@ void Lagrangian1D::step(double dt) {
       const double volume = volume_to(r_new_[i + 1]) - volume_to(r_new_[i]);
       rho_new_[i] = start_density_[i] * (start_volume_[i] / volume);
     }
+    if (front_is_fitted()) fill_front_cell(dt, total(front_cell_));
     if (solid)
       for (int i = 0; i < cell_end; ++i)
         e_new_[i] -= 0.5 * dt / cell_mass_[i] * (push_in_[i] * (u_[i] + u_new_[i]) + push_out_[i] * (u_[i + 1] + u_new_[i + 1]));
@@ -393,7 +402,7 @@ void Lagrangian1D::step(double dt) {
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_[i]);
   const auto total_old = [&](int i) { return p_[i] + q_[i]; };
   if (solid) deviator_forces(cell_end, 0.0, r_);
-  accelerate(total_old);
+  accelerate(total_old, front_.speed);
   compress(total_old);
   const auto healthy = [&] {
     for (int i = 0; i < cell_end; ++i)
@@ -404,14 +413,14 @@ void Lagrangian1D::step(double dt) {
   };
   healthy();
   if (solid) advance_deviators(cell_end, dt);
-  pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
+  pressures(0, cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
   if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0]));
   if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1]));
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_new_[i]);
   const auto total_mean = [&](int i) { return 0.5 * (p_[i] + q_[i] + p_new_[i] + q_new_[i]); };
   if (solid) deviator_forces(cell_end, 0.5, r_new_);
-  accelerate(total_mean);
+  accelerate(total_mean, front_is_fitted() ? 0.5 * (front_.speed + front_at(u_new_[front_cell_ + 1]).speed) : 0.0);
   compress(total_mean);
   healthy();
   if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
@@ -420,7 +429,8 @@ void Lagrangian1D::step(double dt) {
     advance_deviators(cell_end, dt);
     warm(cell_end);
   }
-  pressures(cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
+  if (front_is_fitted()) keep_front_cell();
+  pressures(0, cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
   std::swap(solids_, solids_new_);
   std::swap(r_, r_new_);
@@ -431,8 +441,22 @@ void Lagrangian1D::step(double dt) {
   std::swap(q_, q_new_);
   time_ += dt;
   ++steps_;
-  update_active();
+  if (front_is_fitted()) tend_front();
+  if (!front_is_fitted()) update_active();
 }
+
+std::vector<std::vector<double>*> Lagrangian1D::cell_arrays() {
+  std::vector<std::vector<double>*> all{
+      &cell_mass_, &start_volume_,  &start_density_, &start_middle_, &e_,     &rho_,   &p_,    &q_,
+      &c_,         &viscous_sound_, &slope_,         &rho_new_,      &e_new_, &p_new_, &q_new_};
+  if (solids_.deviator.empty()) return all;
+  for (auto* of : {&solids_, &solids_new_})
+    of->for_each([&](const char*, std::vector<double>& values) { all.push_back(&values); });
+  all.insert(all.end(), {&push_in_, &push_out_});
+  return all;
+}
+
+std::vector<std::vector<double>*> Lagrangian1D::node_arrays() { return {&r_, &u_, &node_mass_, &area_, &r_new_, &u_new_}; }
 
 void Lagrangian1D::fill_new() {
   r_new_ = r_;
@@ -457,13 +481,17 @@ void Lagrangian1D::update_active() {
     if (u_[node] != 0.0) break;
     if (node == n) {
       if (outer_ == Boundary::rigid) continue;
-      if (p_[n - 1] + q_[n - 1] != outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1])) break;
-    } else if (node > 0 && p_[node - 1] + q_[node - 1] != p_[node] + q_[node]) {
-      break;
+      const double over = p_[n - 1] + q_[n - 1] - outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1]);
+      if (options_.front_width ? std::abs(over) > options_.held_pressure : over != 0.0) break;
+    } else if (node > 0) {
+      const double inside = p_[node - 1] + q_[node - 1], outside = p_[node] + q_[node];
+      const bool contact = options_.front_width && cell_layer_[node - 1] != cell_layer_[node];
+      if (contact ? std::abs(inside - outside) > options_.held_pressure : inside != outside) break;
     }
   }
   // Never smaller again: what lies beyond it has never been stepped, and is the same in state and scratch.
   active_ = steps_ == 0 ? node : std::max(active_, node);
+  start_following();
 }
 
 void Lagrangian1D::advance(double t_end) {
@@ -495,6 +523,7 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   state("boundary work", boundary_work_);
   state("steps", steps_);
   state("active", active_);
+  state("front cell", front_cell_);
   state("layer", cell_layer_);
   std::vector<char> burns;
   for (const Layer& layer : layers_) burns.push_back(layer.burn.has_value());
@@ -528,6 +557,7 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   area_.assign(r_.size(), 0.0);
   push_in_.resize(solids_.deviator.size());
   push_out_.resize(solids_.deviator.size());
+  if (front_is_fitted()) front_ = front_at(u_[front_cell_ + 1]);
   fill_new();
 }
 
@@ -551,6 +581,20 @@ double Lagrangian1D::add_to_node(int node, double mass, double velocity) {
   if (!held) u = (all * u + mass * velocity) / (all + mass);
   all += mass;
   return lost;
+}
+
+double Lagrangian1D::drop_node(int cell, double inner, double outer) {
+  const auto moving = [&](int node) { return 0.5 * node_mass_[node] * u_[node] * u_[node]; };
+  const double middle = 0.5 * (inner + outer);
+  const double before = moving(cell) + 0.5 * middle * u_[cell + 1] * u_[cell + 1] + moving(cell + 2);
+  const double left = middle * u_[cell + 1] - 0.5 * (outer * u_[cell] + inner * u_[cell + 2]);  // of momentum
+  node_mass_[cell] += 0.5 * outer;
+  node_mass_[cell + 2] += 0.5 * inner;
+  const bool held = cell == 0 && inner_ == Boundary::rigid;
+  const double change = left / ((held ? 0.0 : node_mass_[cell]) + node_mass_[cell + 2]);
+  if (!held) u_[cell] += change;
+  u_[cell + 2] += change;
+  return before - moving(cell) - moving(cell + 2);
 }
 
 void Lagrangian1D::merge_solids(int one, int other, int into) {
@@ -584,7 +628,9 @@ void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int
     if (!solids_.deviator.empty()) merge_solids(i, first[k + 1] - 1, k);
     if (first[k + 1] == i + 2) {
       const double other = cell_mass_[i + 1];
-      energy += other * e_[i + 1] + add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
+      energy += other * e_[i + 1];
+      energy += options_.front_width ? drop_node(i, mass, other)
+                                     : add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
       mass += other;
       volume += start_volume_[i + 1];
     }
@@ -593,7 +639,8 @@ void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int
     start_density_[k] = first[k + 1] == i + 2 ? mass / volume : start_density_[i];
     start_middle_[k] = start_middle_[i];
     cell_layer_[k] = cell_layer_[i];
-    e_[k] = energy / mass;
+    // What is ahead of a followed front stays at rest to the bit.
+    e_[k] = options_.front_width && first[k + 1] == i + 1 ? e_[i] : energy / mass;
   }
   for (int k = 0; k <= left; ++k) {
     r_[k] = r_[first[k]];
@@ -602,6 +649,7 @@ void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int
   }
   const auto new_index = [&](int old) { return int(std::lower_bound(first.begin(), first.end(), old) - first.begin()); };
   active_ = new_index(active_);
+  if (front_is_fitted()) front_cell_ = new_index(front_cell_);
   for (Block& block : blocks_) {
     block.begin = new_index(block.begin);
     block.end = new_index(block.end);
@@ -618,7 +666,7 @@ void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int
   cell_layer_.resize(left);
   for (auto* field : {&r_, &u_, &node_mass_, &area_}) field->resize(left + 1);
   for (int k = 0; k < left; ++k) rho_[k] = start_density_[k] * (start_volume_[k] / (volume_to(r_[k + 1]) - volume_to(r_[k])));
-  pressures(left, time_, r_, u_, rho_, e_, p_, q_);
+  pressures(0, left, time_, r_, u_, rho_, e_, p_, q_);
   fill_new();
 }
 
@@ -657,9 +705,17 @@ PointState Lagrangian1D::at(double radius) const {
     throw std::out_of_range(
         text("Lagrangian1D::at: ", radius, " m lies outside of the mesh, ", r_.front(), " to ", r_.back(), " m"));
   const int above = static_cast<int>(std::upper_bound(r_.begin(), r_.end(), radius) - r_.begin());
-  const int cell = std::clamp(above - 1, 0, cells() - 1);
+  const bool at_front = front_is_fitted() && radius == front_radius();
+  const int cell = at_front ? front_cell_ : std::clamp(above - 1, 0, cells() - 1);
   const double share = (radius - r_[cell]) / (r_[cell + 1] - r_[cell]);
   const double centre = 0.5 * (r_[cell] + r_[cell + 1]);
+  if (front_is_fitted() && cell == front_cell_ + 1) return {rho_[cell], 0.0, e_[cell], p_[cell], cell_layer_[cell]};
+  if (cell == front_cell_ && radius > centre) {
+    const double weight = (radius - centre) / (r_[cell + 1] - centre);
+    const auto to_front = [&](double value, double front) { return value + weight * (front - value); };
+    return {to_front(rho_[cell], front_.density), u_[cell] + share * (u_[cell + 1] - u_[cell]), to_front(e_[cell], front_.energy),
+            to_front(p_[cell], front_.pressure), cell_layer_[cell]};
+  }
   int other = radius < centre ? cell - 1 : cell + 1;
   if (other < 0 || other >= cells() || cell_layer_[other] != cell_layer_[cell]) other = cell;
   const double other_centre = 0.5 * (r_[other] + r_[other + 1]);
@@ -685,7 +741,7 @@ IntervalIntegral Lagrangian1D::integral(double from, double to, int layer) const
         if (!(end > begin)) continue;
         volume = volume_to(end) - volume_to(begin);
       }
-      const double mass = cell_mass_[i] * (volume / cell_volume), speed = u_[i + half];
+      const double mass = cell_mass_[i] * (volume / cell_volume), speed = half == 0 ? inner_velocity(i) : u_[i + 1];
       sum.volume += volume;
       sum.mass += mass;
       sum.momentum += mass * speed;

@@ -78,6 +78,11 @@ struct Lagrangian1DOptions {
   /// Mass per area [kg/m^2] that rides on a free boundary: a rigid plate, at rest at the start, with the outside pressure
   /// (zero: vacuum) behind it.
   double inner_mass = 0.0, outer_mass = 0.0;
+  /// Set: the first wave's front in a uniform fluid at rest is followed as a discontinuity (fitted_front.cpp), and cells begin at
+  /// it with that width [m]. Empty: it is smeared over some cells, as every other shock.
+  std::function<double(double radius)> front_width = {};
+  /// With `front_width`: pressures on the two sides of a contact that differ by no more do not move it until a wave comes [Pa].
+  double held_pressure = 0.0;
 };
 
 /// State at a point.
@@ -204,7 +209,21 @@ class Lagrangian1D {
   /// inner end where there is none.
   double front(double share, double limit) const;
 
+  /// Is the first wave's front followed as a discontinuity now?
+  bool front_is_fitted() const { return front_cell_ >= 0; }
+  /// Where it is [m] and how fast it runs [m/s]; only where it is followed.
+  double front_radius() const { return r_[front_cell_ + 1]; }
+  double front_speed() const { return front_.speed; }
+  /// Has anything reached the outer end?
+  bool reached_outer_end() const { return active_ + 1 >= cells(); }
+  /// Velocity [m/s] with which the inner half of a cell's mass moves: its inner node's, but at rest ahead of the front.
+  double inner_velocity(int cell) const { return front_cell_ >= 0 && cell == front_cell_ + 1 ? 0.0 : u_[cell]; }
+
  private:
+  /// State behind the followed front, which runs at `speed` into fluid at rest.
+  struct Front {
+    double speed, pressure, density, energy;
+  };
   struct Block {
     int begin, end;         // cells
     double stiffest_sound;  // of the liquid, where the law gives that of its bubbly mixture [m/s]
@@ -213,9 +232,9 @@ class Lagrangian1D {
   double mean_area(double from, double to) const;  // swept volume over distance [m^2]
   double middle(int cell) const;                   // radius that halves the cell's volume [m]
   double outside_pressure(bool outer, double u, double rho, double sound) const;
-  /// Pressure and artificial pressure of the cells below `end`.
-  void pressures(int end, double time, const std::vector<double>& r, const std::vector<double>& u, const std::vector<double>& rho,
-                 const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);
+  /// Pressure and artificial pressure of the cells from `begin` to below `end`.
+  void pressures(int begin, int end, double time, const std::vector<double>& r, const std::vector<double>& u,
+                 const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);
   /// The same of solids; damage of what spalls is set.
   void solid_pressures(const materials::Solid& solid, int begin, int end, const std::vector<double>& rho,
                        const std::vector<double>& e, std::vector<double>& p);
@@ -234,6 +253,30 @@ class Lagrangian1D {
   void merge_solids(int one, int other, int into);
   /// Adds a mass [kg] of that velocity to a node; returns the kinetic energy [J] that is lost.
   double add_to_node(int node, double mass, double velocity);
+
+  /// Drops the node between a cell and the next, of those masses [kg]: where velocity is linear over the mass, what is left of it
+  /// stays. Returns the kinetic energy [J] that is lost, or with a minus gained.
+  double drop_node(int cell, double inner, double outer);
+
+  // The followed front: fitted_front.cpp.
+  bool can_follow_in(int layer) const;
+  int next_followed_layer() const;  // the first one ahead whose front will be followed; the number of layers without one
+  bool still_waits(int layer) const;
+  void start_following();
+  Front front_at(double velocity) const;
+  void move_front(double dt, double speed, double total);
+  void fill_front_cell(double dt, double total);
+  void keep_front_cell();
+  void tend_front();
+  void split_front_cell();
+  void end_following();
+  double step_to_layers_end() const;
+
+  std::vector<std::vector<double>*> cell_arrays();  // all with a value a cell
+  std::vector<std::vector<double>*> node_arrays();  // all with a value a node
+  void insert_cell(int cell);
+  void erase_cell(int cell);
+  void count_blocks(int layer, int more);
 
   int dimension_;
   double area_factor_;  // area of a unit radius: 1, 2 pi, 4 pi
@@ -255,6 +298,10 @@ class Lagrangian1D {
   // Follows from the state.
   std::vector<double> rho_, p_, q_, c_, viscous_sound_;
   int active_ = 0;  // nodes beyond it are at rest and in balance
+  // Of the followed front: the cell that it fills; its outer node is the front, and the next cell is what is left at rest of one.
+  int front_cell_ = -1;
+  Front front_{};
+  double front_volume_ = 0.0;  // that it sweeps in the present step [m^3]
   // Scratch of a step.
   std::vector<double> r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_, area_, slope_;
   SolidCells solids_new_;

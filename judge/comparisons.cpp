@@ -5,10 +5,11 @@
 namespace undex::judge {
 
 // Each in the file of its name.
-Comparison rigid_cylinder(), tube(), taylor_bar(), taylor_plate(), free_field(), profile();
+Comparison rigid_cylinder(), tube(), taylor_bar(), taylor_plate(), free_field(), profile(), similitude();
 
 const std::vector<Comparison>& comparisons() {
-  static const std::vector<Comparison> all{rigid_cylinder(), tube(), taylor_bar(), taylor_plate(), free_field(), profile()};
+  static const std::vector<Comparison> all{rigid_cylinder(), tube(),    taylor_bar(), taylor_plate(),
+                                           free_field(),     profile(), similitude()};
   return all;
 }
 

@@ -13,8 +13,9 @@ struct End {
   double factor;
 };
 /// The longer ends first.
-constexpr std::array ends{End{"_pa_s", "kPa s", 1e-3}, End{"_m_s", "m/s", 1}, End{"_pa", "MPa", 1e-6},
-                          End{"_s", "us", 1e6},        End{"_m", "mm", 1e3},  End{"", "", 1}};
+constexpr std::array ends{
+    End{"_j_m2", "kJ/m^2", 1e-3}, End{"_pa_s", "kPa s", 1e-3}, End{"_m_s", "m/s", 1}, End{"_pa", "MPa", 1e-6},
+    End{"_s", "us", 1e6},         End{"_m", "mm", 1e3},        End{"", "", 1}};
 
 }  // namespace
 

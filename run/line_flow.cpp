@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 #include "core/errors.hpp"
@@ -9,28 +11,34 @@
 namespace undex::run {
 namespace {
 
-constexpr int least_cells = 8;              // of a layer
-constexpr double compressed = 1e-4;         // share of the density by which a front is known
-constexpr double fastest = 1e4;             // [m/s] no front goes by more between two looks
-constexpr double behind_front = 1.0 / 800;  // width that cells may have, over their distance from the front
-constexpr double most_growth = 1.1;         // of the way of the front between two merges
+constexpr int least_cells = 8;        // of a layer
+constexpr double compressed = 1e-4;   // share of the density by which a front is known that is not followed
+constexpr double fastest = 1e4;       // [m/s] no front goes by more between two looks
+constexpr double most_growth = 1.1;   // of the way of the front between two merges
+constexpr int steps_to_merge = 16;    // behind a front that is followed
+constexpr double just_before = 1e-9;  // a probe, and just behind it: share of its place
+// Width that cells may have, over their distance from the front: as merged behind one that is followed, or is not.
+constexpr double behind_followed = 1.0 / 50, behind_smeared = 1.0 / 800;
 
-/// Lays a layer out in cells of about the widths that the line asks for.
-void cut(const scene::Line& line, double spacing, exact::Layer& layer) {
+/// Lays a layer out in cells of about the widths that the line asks for. Where the wave's front will be followed they need only
+/// begin so: the front leaves new ones behind.
+void cut(const scene::Line& line, double spacing, bool followed, exact::Layer& layer) {
   const double length = layer.outer - layer.inner, most = length / least_cells;
+  const auto width = [&](double gone) {
+    const double place = layer.inner + gone;
+    if (!followed) return std::min(most, line.cell_width(place, spacing));
+    return std::min(most, line.front_width(place, spacing) * (1.0 + gone / (line.core_high - line.core_low)));
+  };
   std::vector<double> ends{0.0};
-  while (ends.back() < length) {
-    const double half = 0.5 * std::min(most, line.cell_width(layer.inner + ends.back(), spacing));
-    ends.push_back(ends.back() + std::min(most, line.cell_width(layer.inner + ends.back() + half, spacing)));
-  }
+  while (ends.back() < length) ends.push_back(ends.back() + width(ends.back() + 0.5 * width(ends.back())));
   if (ends.back() - length > 0.5 * (ends.back() - ends[ends.size() - 2])) ends.pop_back();
   layer.cells = static_cast<int>(ends.size()) - 1;
   for (int i = 1; i < layer.cells; ++i) layer.places.push_back(layer.inner + ends[i] * (length / ends.back()));
 }
 
-exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spacing, double inner, double outer) {
+exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spacing, bool followed, double inner, double outer) {
   exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer};
-  cut(line, spacing, layer);
+  cut(line, spacing, followed, layer);
   layer.density = start_density(body);
   layer.energy = start_energy(body);
   layer.velocity = body.velocity[0] + body.radial_velocity;
@@ -48,7 +56,7 @@ exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spa
 
 exact::Layer layer_of(const solid::Body& body, const scene::Line& line, double spacing, double inner, double outer) {
   exact::Layer layer{.law = body.material, .inner = inner, .outer = outer};
-  cut(line, spacing, layer);
+  cut(line, spacing, false, layer);
   layer.density = body.material.rho0;
   layer.velocity = body.velocity[0];
   return layer;
@@ -57,12 +65,19 @@ exact::Layer layer_of(const solid::Body& body, const scene::Line& line, double s
 exact::Lagrangian1D mesh_of(const scene::Scene& scene, const scene::Line& line) {
   std::vector<exact::Layer> layers;
   const double spacing = scene.fluid.lattice.spacing;
+  const bool follows = line.graded && line.rests_ahead;
+  exact::Lagrangian1DOptions options;
   for (const scene::LineLayer& layer : line.layers)
-    layers.push_back(layer.is_solid ? layer_of(scene.solids.bodies[layer.index], line, spacing, layer.inner, layer.outer)
-                                    : layer_of(scene.fluid.bodies[layer.index], line, spacing, layer.inner, layer.outer));
+    if (layer.is_solid) layers.push_back(layer_of(scene.solids.bodies[layer.index], line, spacing, layer.inner, layer.outer));
+    else
+      layers.push_back(layer_of(scene.fluid.bodies[layer.index], line, spacing, follows && layer.inner >= line.core_high,
+                                layer.inner, layer.outer));
+  options.held_pressure = line.held;
+  if (follows) options.front_width = [line, spacing](double radius) { return line.front_width(radius, spacing); };
+  options.outer_pressure = line.outside_pressure;
   const auto end = [&](int which) { return line.closed[which] ? exact::Boundary::rigid : exact::Boundary::free; };
   try {
-    return {scene.geometry == scene::Geometry::spherical ? 3 : 1, std::move(layers), end(0), end(1)};
+    return {scene.geometry == scene::Geometry::spherical ? 3 : 1, std::move(layers), end(0), end(1), options};
   } catch (const std::logic_error& mistake) {
     throw SceneError(scene.file.string(), {scene.places.finding("dimension", mistake.what())});
   }
@@ -77,16 +92,38 @@ LineFlow::LineFlow(const scene::Scene& scene)
       mesh_(mesh_of(scene, line_)) {
   for (const scene::LineLayer& layer : line_.layers)
     material_.push_back(double(layer.index + (layer.is_solid ? scene.fluid.bodies.size() : 0)));
+  for (const scene::Probe& probe : scene.probes)
+    if (probe.kind == scene::Probe::Kind::fluid) probes_.push_back(place_of(probe.point));
+  std::sort(probes_.begin(), probes_.end());
 }
 
 Step LineFlow::advance(double end) {
-  const double size = mesh_.step_towards(end);
-  if (line_.graded && time() >= next_look_) follow_front();
+  const double next = std::min(end, time() + step_to_probe());
+  const double size = mesh_.step_towards(next);
+  if (mesh_.front_is_fitted()) merge_behind_front();
+  else if (line_.graded && time() >= next_look_) look_for_front();
+  if (reached_end_ < 0 && mesh_.reached_outer_end()) reached_end_ = time();
   return {size, "cell"};
 }
 
-/// Looks for the front no farther than it can have come: what sets out from the outer end is no front.
-void LineFlow::follow_front() {
+/// The front that is followed stops just before each probe, and just behind it, so that a history has both.
+double LineFlow::step_to_probe() const {
+  if (!mesh_.front_is_fitted()) return std::numeric_limits<double>::infinity();
+  const double front = mesh_.front_radius();
+  const auto next = std::upper_bound(probes_.begin(), probes_.end(), front);
+  if (next == probes_.end()) return std::numeric_limits<double>::infinity();
+  const double left = *next - front, little = just_before * *next;
+  return (left > 2.0 * little ? left - little : left + little) / mesh_.front_speed();
+}
+
+void LineFlow::merge_behind_front() {
+  front_ = mesh_.front_radius() - line_.core_high;
+  last_look_ = next_look_ = time();
+  if (mesh_.steps() % steps_to_merge == 0) merge(behind_followed, line_.front_width(mesh_.front_radius(), spacing_));
+}
+
+/// Looks for a front that is not followed no farther than it can have come: what sets out from the outer end is no front.
+void LineFlow::look_for_front() {
   const double core = line_.core_high - line_.core_low;
   const double limit = line_.core_high + front_ + fastest * (time() - last_look_);
   front_ = std::max(front_, mesh_.front(compressed, limit) - line_.core_high);
@@ -94,9 +131,15 @@ void LineFlow::follow_front() {
   next_look_ = time() + 0.05 * (core + front_) / fastest;
   mesh_.end_burns();
   if (core + front_ < most_growth * (core + merged_at_)) return;
+  merge(behind_smeared, line_.cell_width(line_.core_high + front_, spacing_));
+}
+
+/// Merges cells that are narrower than `width` [m] and so much more for every metre behind the front.
+void LineFlow::merge(double growth, double width) {
   merged_at_ = front_;
-  const double at = line_.core_high + front_, width = line_.cell_width(at, spacing_);
-  mesh_.coarsen([=](double place) { return width + behind_front * std::max(0.0, at - place); }, least_cells);
+  mesh_.end_burns();
+  const double at = line_.core_high + front_;
+  mesh_.coarsen([=](double place) { return width + growth * std::max(0.0, at - place); }, least_cells);
 }
 
 void LineFlow::visit_state(StateVisitor& state) {
@@ -105,24 +148,28 @@ void LineFlow::visit_state(StateVisitor& state) {
   state("last look", last_look_);
   state("front", front_);
   state("merged at", merged_at_);
+  state("reached end", reached_end_);
+  ledger_.reset();
 }
 
-LineLedger LineFlow::ledger() const {
-  LineLedger all;
+const LineLedger& LineFlow::ledger() const {
+  if (ledger_ && ledger_->step == steps()) return *ledger_;
+  LineLedger all{.step = steps()};
   const auto u = mesh_.node_velocity(), m = mesh_.cell_mass(), e = mesh_.cell_energy(), node = mesh_.node_mass();
   for (int i = 0; i < mesh_.cells(); ++i) {
     all.mass += m[i];
-    const double kinetic = 0.25 * m[i] * (u[i] * u[i] + u[i + 1] * u[i + 1]);
+    const double inner = mesh_.inner_velocity(i), kinetic = 0.25 * m[i] * (inner * inner + u[i + 1] * u[i + 1]);
     (is_solid(i) ? all.solid_kinetic : all.kinetic) += kinetic;
     (is_solid(i) ? all.elastic : all.internal) += m[i] * e[i];
   }
-  for (std::size_t k = 0; k < node.size(); ++k) all.momentum += node[k] * u[k];
+  for (std::size_t k = 0; k < node.size(); ++k) all.momentum += node[k] * u[k];  // plane
   for (const double work : mesh_.solids().plastic_energy) all.plastic += work;
   all.elastic -= all.plastic;
   all.dissipated = mesh_.barotropic_heat();
   all.internal -= all.dissipated;
   all.external = -mesh_.boundary_work();
-  return all;
+  ledger_ = all;
+  return *ledger_;
 }
 
 double LineFlow::compression_energy() const {
@@ -257,7 +304,7 @@ std::vector<double> LineFlow::field(const std::string& name) const {
       const Vec3 x = point_at(0.5 * (r[i] + r[i + 1]));
       values.insert(values.end(), x.begin(), x.end());
     } else if (name == "velocity") {
-      values.insert(values.end(), {0.5 * (u[i] + u[i + 1]), 0.0, 0.0});
+      values.insert(values.end(), {0.5 * (mesh_.inner_velocity(i) + u[i + 1]), 0.0, 0.0});
     } else if (name == "id") {
       values.push_back(i);
     } else if (name == "material") {
@@ -272,6 +319,17 @@ std::vector<double> LineFlow::field(const std::string& name) const {
     }
   }
   return values;
+}
+
+std::string LineFlow::remark() const {
+  if (reached_end_ < 0) return "";
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "the wave reached the outer end, at %.6g m, at %.6g s, and what that sends back is felt ever farther inside; for a "
+      "longer run without it take more of the outermost layer",
+      line_.outer(), reached_end_);
+  return text;
 }
 
 std::vector<std::size_t> LineFlow::cells_by_layer() const {

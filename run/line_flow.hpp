@@ -1,10 +1,11 @@
 // A scene that needs one coordinate, on the one-dimensional Lagrangian mesh (exact/lagrangian_1d.hpp): its bodies and solids as
-// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and somewhat wider away
-// from it. What the first wave's front has left behind is merged, the more the farther behind, and what is ahead of it costs
-// nothing. So the cells at work are a few times those of the core, however far the wave goes.
+// layers, read as points in space. Cells are as fine as the scene says in the core (scene/line.hpp) and wider away from it. In
+// fluids at rest the first wave's front is followed as a discontinuity. What it has left behind is merged, the more the farther
+// behind, and what is ahead of it costs nothing: the cells at work grow with the logarithm of its way.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct LineLedger {
   double solid_kinetic = 0, elastic = 0, plastic = 0;  ///< of solids; what shocks left in them is in the elastic part
   double external = 0;                                 ///< work of pressure from outside
   double mass = 0, momentum = 0;                       ///< [kg], along x in a plane [kg m/s]
+  long step = -1;                                      ///< after which it was drawn up
 };
 
 class LineFlow {
@@ -36,7 +38,7 @@ class LineFlow {
   const exact::Lagrangian1D& mesh() const { return mesh_; }
   const scene::Line& line() const { return line_; }
 
-  LineLedger ledger() const;
+  const LineLedger& ledger() const;  ///< of the present state; drawn up when somebody asks
   bool pushed_at_ends() const { return spherical_ || line_.closed[0] || line_.closed[1]; }
   /// Kinetic energy of small waves against the present pressure [J]: sum of V p^2/(2 rho c^2).
   double compression_energy() const;
@@ -51,12 +53,18 @@ class LineFlow {
   /// A field of all cells by the name that particles have for it (docs/outputs.md); places are (r, 0, 0) from the middle, or x.
   std::vector<double> field(const std::string& name) const;
 
+  /// What a reader must know of the run: when the wave reached the outer end. Empty: nothing.
+  std::string remark() const;
+
   std::size_t cells() const { return static_cast<std::size_t>(mesh_.cells()); }
   std::vector<std::size_t> cells_by_layer() const;
   std::size_t memory_bytes() const;
 
  private:
-  void follow_front();
+  double step_to_probe() const;
+  void merge_behind_front();
+  void look_for_front();
+  void merge(double growth, double width);
   double place_of(const Vec3& x) const;
   Vec3 outward(const Vec3& x) const;
   Vec3 point_at(double place) const;
@@ -72,6 +80,9 @@ class LineFlow {
   // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge
   // [m].
   double next_look_ = 0, last_look_ = 0, front_ = 0, merged_at_ = 0;
+  double reached_end_ = -1;     // when something has reached the outer end [s]
+  std::vector<double> probes_;  // places of fluid probes, rising [m]
+  mutable std::optional<LineLedger> ledger_;
 };
 
 class OnALine : public Driver {

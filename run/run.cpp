@@ -239,6 +239,10 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   result.record.warnings = warnings;
   if (scene.output.checkpoint_interval > 0)
     for (const auto& pass : checkpoints.timers().seconds()) result.record.passes.push_back(pass);
+  if (const LineFlow* line = simulation.line(); line && !line->remark().empty()) {
+    result.record.warnings.push_back(line->remark());
+    if (options.verbosity >= 0) std::fprintf(stderr, "warning: %s\n", line->remark().c_str());
+  }
   const auto& not_kept = checkpoints.warnings();
   result.record.warnings.insert(result.record.warnings.end(), not_kept.begin(), not_kept.end());
   result.signal = end.signal;

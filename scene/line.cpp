@@ -37,6 +37,7 @@ class Builder {
     join();
     close();
     choose_core();
+    look_ahead();
     return line_;
   }
 
@@ -158,6 +159,38 @@ class Builder {
     line_.graded = line_.layers.size() > 1 && (spherical_ || found);
   }
 
+  /// At the start [Pa].
+  double pressure_of(const LineLayer& layer) const {
+    if (layer.is_solid) return 0.0;
+    const sph::Body& body = scene_.fluid.bodies[layer.index];
+    return std::visit([&](const auto& law) { return law.evaluate(start_density(body), start_energy(body)).pressure; },
+                      body.material.law);
+  }
+  bool rests(const LineLayer& layer) const {
+    if (layer.is_solid) return scene_.solids.bodies[layer.index].velocity.isZero();
+    const sph::Body& body = scene_.fluid.bodies[layer.index];
+    return !body.start && !body.burn && body.velocity.isZero() && body.radial_velocity == 0;
+  }
+
+  void look_ahead() {
+    const LineLayer& last = line_.layers.back();
+    if (spherical_ && line_.layers.size() > 1 && last.inner >= line_.core_high) line_.outside_pressure = pressure_of(last);
+    double before = 0;
+    bool ahead = false, balanced = true;
+    for (const LineLayer& layer : line_.layers) {
+      const double p = pressure_of(layer);
+      if (layer.inner == line_.core_low) line_.held = 1e-3 * std::abs(p);
+      if (layer.inner < line_.core_high) continue;
+      balanced = balanced && rests(layer) && (!ahead || std::abs(p - before) <= line_.held);
+      ahead = true;
+      before = p;
+    }
+    if (ahead && !line_.closed[1]) balanced = balanced && std::abs(before - line_.outside_pressure) <= line_.held;
+    // The front sets out a cell ahead of the contact: a shock catches up with it, sound never would.
+    constexpr double least_of_a_shock = 1e9;  // in the core [Pa]
+    line_.rests_ahead = ahead && balanced && 1e3 * line_.held >= least_of_a_shock;
+  }
+
   const Scene& scene_;
   bool spherical_, has_center_ = false;
   Line line_;
@@ -169,6 +202,11 @@ double Line::cell_width(double place, double spacing) const {
   if (!graded) return spacing;
   const double away = std::max({0.0, core_low - place, place - core_high});
   return spacing * std::pow(1.0 + 0.5 * away / (core_high - core_low), 0.25);
+}
+
+double Line::front_width(double place, double spacing) const {
+  const double away = std::max(0.0, place - core_high) / (core_high - core_low);
+  return spacing * std::min(4.0, 1.0 + 4.0 * away) * std::pow(1.0 + 0.05 * away, 0.25);
 }
 
 Line line_of(const Scene& scene) { return Builder(scene).build(); }

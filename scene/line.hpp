@@ -30,6 +30,11 @@ struct Line {
   std::array<bool, 2> closed{};        ///< is there a rigid wall, a plane of symmetry or the middle at the inner, the outer end?
   double core_low = 0, core_high = 0;  ///< of the core: the first charge, or the innermost layer [m]
   bool graded = false;                 ///< do cells grow away from the core?
+  /// Is all beyond the core at rest until the core's wave comes, so that the wave's front can be followed? Pressures on the two
+  /// sides of a contact may differ by `held` [Pa], a thousandth of the core's: a body without stress in water under pressure.
+  bool rests_ahead = false;
+  double held = 0;
+  double outside_pressure = 0;  ///< at an open outer end: the pressure of a fluid that lies round others at the start [Pa]
   std::vector<LineFlaw> flaws;
 
   double inner() const { return layers.front().inner; }
@@ -37,6 +42,8 @@ struct Line {
   /// Of a cell at that place where those of the core are `spacing` wide [m]: with the distance d from the core, whose thickness
   /// is L, it grows as (1 + d/(2 L))^(1/4), as a blast wave grows longer on its way.
   double cell_width(double place, double spacing) const;
+  /// Of a cell that the followed front leaves behind there [m]: up to four times the core's within 3/4 L, then as (1 + d/(20 L))^(1/4).
+  double front_width(double place, double spacing) const;
 };
 
 /// The line of a scene whose geometry has one; with flaws, as much of it as there is.

@@ -1,5 +1,6 @@
 // [comparison]: its keys. What a kind needs of the scene it checks itself.
 #include <algorithm>
+#include <cmath>
 
 #include "scene/draft.hpp"
 #include "scene/suggestion.hpp"
@@ -49,6 +50,23 @@ void read_solution(const TableReader& table, Comparison& comparison) {
     comparison.solution = solution;
 }
 
+void read_similitude(const TableReader& table, Similitude& similitude) {
+  table.read("explosive", similitude.explosive);
+  table.read("charge_mass", similitude.charge_mass);
+  for (const auto& [key, into] : {std::pair{"peak", &similitude.peak},
+                                  {"decay", &similitude.decay},
+                                  {"impulse", &similitude.impulse},
+                                  {"energy_flux", &similitude.energy_flux}}) {
+    std::vector<double> law;
+    if (!table.read(key, law)) continue;
+    if (law.size() == 2 && law[0] > 0 && std::isfinite(law[0]) && std::abs(law[1]) < 10) *into = law;
+    else
+      table.complain(key, table.path_of(key) +
+                              " must be [factor, exponent] of its law of similitude, in kg, m, s and Pa, the factor "
+                              "above 0");
+  }
+}
+
 void complain_of_unknown_probe(const TableReader& table, const Scene& scene) {
   std::vector<std::string> names;
   for (const Probe& probe : scene.probes) names.push_back(probe.name);
@@ -81,6 +99,7 @@ void read_comparison(Draft& draft, const std::vector<ComparisonKind>& kinds) {
   if (kind && has_key(*kind, "window")) read_window(table, comparison);
   if (kind && has_key(*kind, "solution")) read_solution(table, comparison);
   if (kind && has_key(*kind, "core")) table.read("core", comparison.core);
+  if (kind && has_key(*kind, "explosive")) read_similitude(table, comparison.similitude);
   table.read("probe", comparison.probe);
   if (kind && kind->check) kind->check(table, draft.scene);
   complain_of_unknown_probe(table, draft.scene);

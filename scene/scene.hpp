@@ -185,6 +185,14 @@ void describe(Output& output, Visit&& visit) {
                               .meaning = "in the solids' snapshots; [] leaves the positions"});
 }
 
+/// The laws of similitude of an explosive, each a factor and an exponent (empty: those of the named explosive). With W [kg], R [m],
+/// s = W^(1/3): p = K (s/R)^a [Pa], theta = k s (s/R)^b [s], I = K s (s/R)^a [Pa s], E = K s (s/R)^a [J/m^2].
+struct Similitude {
+  std::string explosive;              ///< one of the named; empty: none
+  std::optional<double> charge_mass;  ///< W [kg]; else that of the scene's charge
+  std::vector<double> peak, decay, impulse, energy_flux;
+};
+
 /// A reference history or table that a run is compared with by the named comparison.
 struct Comparison {
   std::string kind;                  ///< "none", or that of a ComparisonKind
@@ -194,6 +202,7 @@ struct Comparison {
   /// Of a profile: least and largest coordinate that is compared [m].
   double window_low = -std::numeric_limits<double>::infinity(), window_high = std::numeric_limits<double>::infinity();
   std::optional<double> core;  ///< of a Riemann problem: least |y| and |z| that is left out [m]
+  Similitude similitude;
 };
 
 class TableReader;

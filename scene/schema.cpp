@@ -26,7 +26,19 @@ std::vector<Section> make_schema() {
       {"faces.cylinder", {word("side"), word("low"), word("high")}},
       {"faces.cone", {word("side"), word("low"), word("high")}},
       {"faces.sphere", {word("side")}},
-      {"comparison", {word("kind"), word("probe"), word("reference"), word("solution"), position("window"), length("core")}},
+      {"comparison",
+       {word("kind"),
+        word("probe"),
+        word("reference"),
+        word("solution"),
+        position("window"),
+        length("core"),
+        word("explosive"),
+        {.name = "charge_mass", .unit = "kg", .range = Range::positive()},
+        word("peak"),
+        word("decay"),
+        word("impulse"),
+        word("energy_flux")}},
   };
   for_each_table([&](const std::string& name, const char* summary, const auto& record, const char* kind) {
     std::vector<Key> keys;

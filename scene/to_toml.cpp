@@ -207,6 +207,14 @@ std::string to_toml(const Scene& scene) {
   writer.put("probe", scene.comparison.probe);
   writer.put("reference", scene.comparison.reference);
   if (scene.comparison.solution) writer.put("solution", solution_name(*scene.comparison.solution));
+  const Similitude& similitude = scene.comparison.similitude;
+  if (!similitude.explosive.empty()) writer.put("explosive", similitude.explosive);
+  if (similitude.charge_mass) writer.put("charge_mass", *similitude.charge_mass);
+  for (const auto& [key, law] : {std::pair{"peak", &similitude.peak},
+                                 {"decay", &similitude.decay},
+                                 {"impulse", &similitude.impulse},
+                                 {"energy_flux", &similitude.energy_flux}})
+    if (!law->empty()) writer.put(key, *law);
   if (std::isfinite(scene.comparison.window_low))
     writer.put("window", std::vector<double>{scene.comparison.window_low, scene.comparison.window_high});
   writer.put("core", scene.comparison.core);

@@ -20,6 +20,11 @@ void Validator::line() {
     complain(*nodes[flaw.index], flaw.key, flaw.message);
   }
   if (!line.flaws.empty() || line.layers.empty()) return;
+  if (line.graded && !line.rests_ahead && line.held >= 1e6)
+    warn(draft_.root, "dimension",
+         "what lies round the charge does not rest until its wave comes, for it moves or begins at pressures that differ by more "
+         "than " +
+             rounded(line.held) + " Pa: the wave's front is smeared over some cells and the run is slower");
   cells_of(line);
   burns_on(line, words);
   for (std::size_t i = 0; i < scene_.probes.size(); ++i)
