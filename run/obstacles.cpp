@@ -59,7 +59,7 @@ void add_of(const scene::Scene& scene, const scene::Scene& other, const std::str
     found.push_back({"solid '" + solid.name + "'" + whose,
                      [shape = solid.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
   if (!scene.structure) return;
-  if (const auto shape = scene::structure_shape(scene.structure->mesh)) {
+  if (const auto shape = scene::structure_shape(scene.structure->mesh, scene.meridian)) {
     const bool whole = shape->built_in().has_value();
     const std::array<bool, 3> planes = scene.fluid.symmetry.axis;
     found.push_back({"the structure" + whose, [=](Vec3 x) {
