@@ -1,5 +1,5 @@
 // The first wave's front, followed as a discontinuity through uniform fluid at rest (shock fitting, after R. D. Richtmyer and
-// K. W. Morton, Difference Methods for Initial-Value Problems, 1967, section 12.9), on the compatible staggered mesh.
+// K. W. Morton, Difference Methods for Initial-Value Problems, 1967), on the compatible staggered mesh.
 //
 // The front is a node that runs through the mass: with R its radius, V the volume within it and D its speed,
 //   dR/dt = D(u_s),   dm/dt = rho_0 dV/dt   for the cell behind it, and minus that for the one ahead,
@@ -11,7 +11,8 @@
 // particles', and A (P - p_H) the rest. The fluid ahead gives its energy and no work, so what the cell behind has of internal
 // energy is what the sum of all leaves it: mass, momentum (planar) and energy are kept to round-off.
 //
-// The cell behind the front is split in two when it has grown to twice its width; mass, momentum, energy stay. Second order.
+// The cell behind the front is split in two when it has grown to twice its width; mass, momentum, energy stay. The front sets out
+// a cell ahead of the contact: a shock catches up with it, sound never would, so weak waves are left to the mesh.
 #include <algorithm>
 #include <cmath>
 

@@ -8,6 +8,7 @@
 
 #include "judge/comparisons.hpp"
 #include "run/spherical_flow.hpp"
+#include "scene/line.hpp"
 #include "scene/numbers.hpp"
 #include "scene/table_reader.hpp"
 
@@ -59,7 +60,7 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
     const Series run = evidence.series(places[k].name, "pressure");
     if (run.empty()) continue;
     NamedNumbers one = blast_metrics(run, exact[k], places[k].name, run.t.front(), evidence.time);
-    if (on_a_line(scene.geometry)) {  // the run's front is smeared as the reference's is, over cells of its own
+    if (on_a_line(scene.geometry) && !scene::line_of(scene).rests_ahead) {  // smeared as the reference's is, over its own cells
       const double wider = scene.fluid.lattice.spacing * reference_cells / run::spherical_charge(scene).radius;
       one.front().second = peak_behind_front({.pressure = run, .smear = wider * exact[k].smear});
     }

@@ -148,19 +148,15 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
 }  // namespace
 
 const std::vector<SimilitudeLaws>& known_similitude() {
-  // Decay: theta = k s (s/R)^b, b below 0. Those of impulse and energy, and all of pentolite, Composition B and HBX-1, stand in one
-  // public table that names no measurement.
+  // Decay: theta = k s (s/R)^b, b below 0. Impulse and energy, and all of pentolite, Composition B and HBX-1, are from one public
+  // table that names no measurement.
   static const std::vector<SimilitudeLaws> all{
       {"tnt",
-       "peak and decay: T. L. Geers and K. S. Hunter, J. Acoust. Soc. Am. 111, 2002 (their TNT, 1600 kg/m^3, in SI); impulse and "
+       "peak and decay: TNT of 1600 kg/m^3 after T. L. Geers and K. S. Hunter (2002), as public codes quote it in SI; impulse "
+       "and "
        "energy: BlastDaemon's table, without a source",
        PowerLaw{52.4e6, 1.13}, PowerLaw{84e-6, -0.23}, PowerLaw{5750, 0.89}, PowerLaw{84.4e3, 2.04}},
-      {"tnt-arons",
-       "A. B. Arons, J. Acoust. Soc. Am. 26, 1954, as public codes quote it",
-       PowerLaw{50.4e6, 1.13},
-       PowerLaw{92.5e-6, -0.22},
-       {},
-       {}},
+      {"tnt-arons", "after A. B. Arons, as public codes quote it", PowerLaw{50.4e6, 1.13}, PowerLaw{92.5e-6, -0.22}, {}, {}},
       {"pentolite", "BlastDaemon's table, without a source", PowerLaw{56.1e6, 1.14}, PowerLaw{84e-6, -0.22}, PowerLaw{6520, 0.91},
        PowerLaw{100.2e3, 2.06}},
       {"comp-b", "BlastDaemon's table, without a source", PowerLaw{53.4e6, 1.13}, PowerLaw{92e-6, -0.24}, PowerLaw{6110, 0.91},

@@ -42,7 +42,7 @@ struct Line {
   /// Of a cell at that place where those of the core are `spacing` wide [m]: with the distance d from the core, whose thickness
   /// is L, it grows as (1 + d/(2 L))^(1/4), as a blast wave grows longer on its way.
   double cell_width(double place, double spacing) const;
-  /// Of a cell that the followed front leaves behind there [m]: up to four times the core's within 3/4 L, then as (1 + d/(20 L))^(1/4).
+  /// Of a cell that the followed front leaves behind there [m]: 4 s from d = 3/4 L on, and wider as (1 + d/(20 L))^(1/4).
   double front_width(double place, double spacing) const;
 };
 

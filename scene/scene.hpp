@@ -185,7 +185,7 @@ void describe(Output& output, Visit&& visit) {
                               .meaning = "in the solids' snapshots; [] leaves the positions"});
 }
 
-/// The laws of similitude of an explosive, each a factor and an exponent (empty: those of the named explosive). With W [kg], R [m],
+/// The laws of similitude of an explosive, each a factor and an exponent (empty: the named explosive's). With W [kg], R [m] and
 /// s = W^(1/3): p = K (s/R)^a [Pa], theta = k s (s/R)^b [s], I = K s (s/R)^a [Pa s], E = K s (s/R)^a [J/m^2].
 struct Similitude {
   std::string explosive;              ///< one of the named; empty: none

@@ -9,6 +9,7 @@
 #include "exact/classical.hpp"
 #include "judge/free_field.hpp"
 #include "judge/judge.hpp"
+#include "judge/similitude.hpp"
 #include "judge/taylor_plate.hpp"
 #include "run/plane_wave_start.hpp"
 
@@ -148,6 +149,83 @@ TEST(BlastMetrics, OutsideOfTheHistoriesIsNaN) {
   const Series run{{0, 10e-6}, {0, 1e6}}, reference{{0, 40e-6}, {0, 1e6}};
   EXPECT_TRUE(std::isnan(get(blast_metrics(run, {reference}, "a", 0, 40e-6), "l1_pressure_a")));
   EXPECT_TRUE(std::isnan(get(blast_metrics(run, {reference}, "a", 0, 40e-6), "impulse_a_pa_s")));
+}
+
+/// A history that jumps to P over 1e5 Pa at 1 ms and decays with theta.
+Series shock(double peak, double theta, double end, double step) {
+  Series p{{0.0, 1e-3}, {1e5, 1e5}};
+  for (double t = 0; t <= end; t += step) p.append(1e-3 + t, 1e5 + peak * std::exp(-t / theta));
+  return p;
+}
+
+TEST(Similitude, ReadsTheMarksOfAnExponentialWave) {
+  const double peak = 20e6, theta = 100e-6, impedance = 1.5e6;
+  const ShockWave wave = shock_wave(shock(peak, theta, 1e-3, 1e-7), impedance);
+  EXPECT_NEAR(wave.peak / peak, 1.0, 1e-12);
+  EXPECT_NEAR(wave.decay / theta, 1.0, 1e-6);
+  EXPECT_NEAR(wave.impulse / (peak * theta * (1 - std::exp(-6.7))), 1.0, 1e-5);
+  EXPECT_NEAR(wave.energy_flux / (peak * peak * theta / (2 * impedance) * (1 - std::exp(-13.4))), 1.0, 1e-5);
+  // Before 6.7 decays have passed there is no impulse, before one no decay; a wave that is there from the start has no peak.
+  const ShockWave early = shock_wave(shock(peak, theta, 5 * theta, 1e-7), impedance);
+  EXPECT_NEAR(early.decay / theta, 1.0, 1e-6);
+  EXPECT_TRUE(std::isnan(early.impulse) && std::isnan(early.energy_flux));
+  EXPECT_TRUE(std::isnan(shock_wave(shock(peak, theta, 0.5 * theta, 1e-7), impedance).decay));
+  EXPECT_TRUE(std::isnan(shock_wave({{0, 1, 2}, {3e6, 2e6, 1e6}}, impedance).peak));
+  EXPECT_TRUE(std::isnan(shock_wave({{0, 1, 2}, {1e5, 1e5, 1e5}}, impedance).peak));
+  EXPECT_TRUE(std::isnan(shock_wave({{0, 1, 2}, {1e5, 1e5, 2e5}}, impedance).peak)) << "it still rises";
+}
+
+/// Histories that follow the laws give ratios of one, whatever the kind of run.
+TEST(Similitude, RatiosOfAWaveThatFollowsTheLawsAreOne) {
+  for (const char* dimension : {"\"spherical\"", "\"axisymmetric\"", "3"}) {
+    std::vector<scene::Override> changes{{"dimension", dimension},
+                                         {"comparison.kind", "\"similitude\""},
+                                         {"comparison.charge_mass", "2.5"},
+                                         {"comparison.peak", "[52.4e6, 1.13]"},
+                                         {"comparison.decay", "[84e-6, -0.23]"}};
+    if (std::string(dimension) != "\"spherical\"") changes.push_back({"resolution.spacing", "0.01"});
+    const scene::Scene scene = scene::read(UNDEX_CASES "/free_field/tnt.toml", comparison_kinds(), changes);
+    Evidence evidence{.time = 3e-3, .probes = {}, .energy = {}, .fields = {}};
+    const double scale = std::cbrt(2.5);
+    for (const scene::Probe& probe : scene.probes) {
+      const double R = probe.point.norm();
+      const Series p = shock(52.4e6 * std::pow(scale / R, 1.13), 84e-6 * scale * std::pow(scale / R, -0.23), 2e-3, 2e-7);
+      Samples samples({{"time", "s"}, {"pressure", "Pa"}});
+      for (std::size_t i = 0; i < p.t.size(); ++i) samples.append({p.t[i], p.y[i]});
+      evidence.probes[probe.name] = samples;
+    }
+    const Verdict verdict = Judge(scene).verdict(evidence);
+    int seen = 0;
+    for (const auto& [name, value] : verdict.metrics)
+      if (name.starts_with("peak_ratio_") || name.starts_with("decay_ratio_")) {
+        EXPECT_NEAR(value, 1.0, 1e-5) << name << " " << dimension;
+        ++seen;
+      }
+    EXPECT_EQ(seen, 2 * int(scene.probes.size())) << dimension;
+    EXPECT_EQ(verdict.tables.at("similitude.csv").rows(), scene.probes.size());
+  }
+}
+
+TEST(Similitude, RefusesWhatHasNoLaws) {
+  const auto refusal = [](std::vector<scene::Override> changes) -> std::string {
+    try {
+      scene::read(UNDEX_CASES "/free_field/tnt.toml", comparison_kinds(), changes);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({}), "");
+  const auto has = [&](std::vector<scene::Override> changes, const char* what) {
+    const std::string said = refusal(std::move(changes));
+    EXPECT_NE(said.find(what), std::string::npos) << what << ": " << said;
+  };
+  has({{"comparison.explosive", "\"tntt\""}}, "tnt");
+  has({{"comparison.explosive", "\"\""}}, "needs an explosive with known laws");
+  has({{"comparison.peak", "[1]"}}, "must be [factor, exponent]");
+  has({{"comparison.charge_mass", "-1"}}, "charge_mass");
+  has({{"probes.r5.point", "[0.02, 0, 0]"}}, "lies in the charge");
+  has({{"bodies.charge.material", "\"water-tait\""}}, "needs one charge");
 }
 
 }  // namespace
