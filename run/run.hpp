@@ -17,13 +17,13 @@ namespace undex::run {
 inline constexpr const char* out_of_memory = "out of memory; take a larger spacing, or symmetry planes";
 
 struct RunOptions {
-  std::filesystem::path output;                    ///< there, and held by an output::FolderLock
+  std::filesystem::path output = {};               ///< there, and held by an output::FolderLock
   int threads = 0;                                 ///< 0: the scene's choice, or all the machine has
   int verbosity = 0;                               ///< -1 quiet, 0 normal, 1 every step
-  std::string scene_text;                          ///< the scene file as the user wrote it
-  std::string program;                             ///< version text for the record
-  std::string numerics;                            ///< what the digits depend on beside the scene, for checkpoints
-  std::vector<std::string> last_fields;            ///< of the last state that a verdict needs, such as "fluid.pressure"
+  std::string scene_text = {};                     ///< the scene file as the user wrote it
+  std::string program = {};                        ///< version text for the record
+  std::string numerics = {};                       ///< what the digits depend on beside the scene, for checkpoints
+  std::vector<std::string> last_fields = {};       ///< of the last state that a verdict needs, such as "fluid.pressure"
   const output::Checkpoint* checkpoint = nullptr;  ///< to go on from, in the same folder; null: from the scene's start
 };
 
