@@ -524,6 +524,10 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   state("steps", steps_);
   state("active", active_);
   state("front cell", front_cell_);
+  state("front speed", front_.speed);
+  state("front pressure", front_.pressure);
+  state("front density", front_.density);
+  state("front energy", front_.energy);
   state("layer", cell_layer_);
   std::vector<char> burns;
   for (const Layer& layer : layers_) burns.push_back(layer.burn.has_value());
@@ -557,7 +561,6 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   area_.assign(r_.size(), 0.0);
   push_in_.resize(solids_.deviator.size());
   push_out_.resize(solids_.deviator.size());
-  if (front_is_fitted()) front_ = front_at(u_[front_cell_ + 1]);
   fill_new();
 }
 

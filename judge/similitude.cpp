@@ -176,7 +176,8 @@ ShockWave shock_wave(const Series& pressure, double impedance) {
   // One that is there from the start has passed; one that still rises at the end has not come.
   if (!(top.y > 0) || top.t <= over.t.front() || top.t >= over.t.back()) return wave;
   wave.peak = top.y;
-  wave.decay = first_below(over, top.y / std::numbers::e, top.t, forever) - top.t;
+  wave.decay =
+      first_below(over, top.y / std::numbers::e, std::nextafter(top.t, forever), forever) - top.t;  // a jump is two samples
   const double end = top.t + decays * wave.decay;
   if (!(end <= over.t.back())) return wave;
   wave.impulse = wave.energy_flux = 0;

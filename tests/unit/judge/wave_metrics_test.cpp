@@ -183,7 +183,7 @@ TEST(Similitude, RatiosOfAWaveThatFollowsTheLawsAreOne) {
                                          {"comparison.charge_mass", "2.5"},
                                          {"comparison.peak", "[52.4e6, 1.13]"},
                                          {"comparison.decay", "[84e-6, -0.23]"}};
-    if (std::string(dimension) != "\"spherical\"") changes.push_back({"resolution.spacing", "0.01"});
+    if (std::string(dimension) != "\"spherical\"") changes.push_back({"resolution.spacing", "0.025"});
     const scene::Scene scene = scene::read(UNDEX_CASES "/free_field/tnt.toml", comparison_kinds(), changes);
     Evidence evidence{.time = 3e-3, .probes = {}, .energy = {}, .fields = {}};
     const double scale = std::cbrt(2.5);
