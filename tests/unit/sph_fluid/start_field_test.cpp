@@ -92,7 +92,7 @@ TEST(StartField, CoversInPlaceOfTheShape) {
   Settings s = sine("water-tait", 1000.0, 0.0, 16);
   StartField field;
   field.state = [](const Vec3&, double) { return StartState{1000.0, 0.0, Vec3::Zero()}; };
-  field.covers = [](const Vec3& x) { return x[0] > 0.25; };
+  field.covers = [](const Vec3& x) { return x[0] > 0.25 && x[0] < 1.0; };
   field.box = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
   s.bodies[0].start = std::make_shared<StartField>(field);
   const Ledger ledger = Fluid(s).ledger();
