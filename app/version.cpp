@@ -30,8 +30,17 @@ std::string numerics_line() {
 
 // None of these texts holds a character that JSON would escape.
 std::string version_json() {
-  return std::string("{\"version\": \"") + UNDEX_VERSION + "\", \"git\": \"" + UNDEX_GIT + "\", \"compiler\": \"" + compiler +
-         "\", \"build_type\": \"" + build_type() + "\", \"cpu_level\": \"" + sph::cpu_level() + "\"}";
+  std::string text;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    text += text.empty() ? "{" : ", ";
+    text += '"' + key + "\": \"" + value + '"';
+  };
+  add("version", UNDEX_VERSION);
+  add("git", UNDEX_GIT);
+  add("compiler", compiler);
+  add("build_type", build_type());
+  add("cpu_level", sph::cpu_level());
+  return text + "}";
 }
 
 }  // namespace undex::app

@@ -30,25 +30,43 @@ target_link_libraries(undex_rules INTERFACE OpenMP::OpenMP_CXX)
 # preset "checked" builds without.)
 add_library(undex_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
 target_link_libraries(undex_headers PRIVATE undex_rules Eigen3::Eigen)
-set(UNDEX_HEADERS <algorithm> <array> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <limits> <map> <memory>
-  <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <variant> <vector> ${PROJECT_SOURCE_DIR}/core/vector.hpp)
+set(UNDEX_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <limits>
+  <map> <memory> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <unordered_map> <variant> <vector>
+  ${PROJECT_SOURCE_DIR}/core/vector.hpp)
 target_precompile_headers(undex_headers PRIVATE ${UNDEX_HEADERS})
 
-# undex_module(name [PUBLIC libs...] [PRIVATE libs...] SOURCES files...): a library of the project.
+# The modules that work on scenes parse that record, and the settings of all solvers with it, once as well.
+if(UNDEX_WITH_FEM)
+  add_library(undex_scene_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
+  target_link_libraries(undex_scene_headers PRIVATE undex_rules Eigen3::Eigen)
+  set(UNDEX_SCENE_HEADERS ${UNDEX_HEADERS} ${PROJECT_SOURCE_DIR}/scene/scene.hpp)
+  target_precompile_headers(undex_scene_headers PRIVATE ${UNDEX_SCENE_HEADERS})
+endif()
+
+# undex_module(name [ON_SCENES] [PUBLIC libs...] [PRIVATE libs...] SOURCES files...): a library of the project.
 function(undex_module name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "ON_SCENES" "" "PUBLIC;PRIVATE;SOURCES" ${ARGN})
   add_library(undex_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(undex_${name} PUBLIC undex_rules ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  target_precompile_headers(undex_${name} REUSE_FROM undex_headers)
+  if(ARG_ON_SCENES)
+    target_precompile_headers(undex_${name} REUSE_FROM undex_scene_headers)
+  else()
+    target_precompile_headers(undex_${name} REUSE_FROM undex_headers)
+  endif()
 endfunction()
 
-# undex_test(name LIBS libs... SOURCES files... [SHARDS n]): one GoogleTest executable, one ctest entry per test case; or n entries
-# that share the cases, for programs with deal.II, whose 200 libraries take half a second to load.
+# undex_test(name [ON_SCENES] LIBS libs... SOURCES files... [SHARDS n]): one GoogleTest executable, one ctest entry per test case;
+# or n entries that share the cases, for programs that load deal.II, which takes half a second.
 function(undex_test name)
-  cmake_parse_arguments(ARG "" "SHARDS" "LIBS;SOURCES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "ON_SCENES" "SHARDS" "LIBS;SOURCES;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
-  target_link_libraries(test_${name} PRIVATE undex_rules ${ARG_LIBS} GTest::gtest_main)
-  target_precompile_headers(test_${name} REUSE_FROM undex_test_headers)
+  target_link_libraries(test_${name} PRIVATE undex_test_rules ${ARG_LIBS} GTest::gtest_main)
+  set_target_properties(test_${name} PROPERTIES BUILD_RPATH ${PROJECT_BINARY_DIR})  # where undex_meshes lies
+  if(ARG_ON_SCENES)
+    target_precompile_headers(test_${name} REUSE_FROM undex_scene_test_headers)
+  else()
+    target_precompile_headers(test_${name} REUSE_FROM undex_test_headers)
+  endif()
   if(NOT ARG_SHARDS)
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
       PROPERTIES TIMEOUT 600 LABELS "${ARG_LABELS}")

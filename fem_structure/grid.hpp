@@ -1,4 +1,4 @@
-// Mesh of a structure as plain arrays, and the place of a point in it. deal.II builds it (grid.cpp) and stays there.
+// Mesh of a structure as plain arrays, and the place of a point in it. deal.II builds it (deal_mesh.cpp) and stays there.
 #pragma once
 
 #include <array>
@@ -41,11 +41,13 @@ struct Place {
   double distance;
 };
 
+struct DealMesh;
+
 /// A mesh held by deal.II, from which the plain arrays were taken.
 class Mesher {
  public:
-  struct Held;
-  /// Throws std::invalid_argument with every mistake of the mesh settings.
+  /// Throws std::invalid_argument with every mistake of the mesh settings, FileError where the library that builds meshes is not
+  /// to be found.
   explicit Mesher(const Settings& settings);
   ~Mesher();
   Mesher(Mesher&&) noexcept;
@@ -56,7 +58,7 @@ class Mesher {
   std::optional<Place> containing_cell(const Vec3& reference_position) const;
 
  private:
-  std::unique_ptr<Held> held_;
+  std::unique_ptr<DealMesh> held_;
 };
 
 /// Place of the point of the mesh nearest to `reference_position`, by projection onto every cell in reach.

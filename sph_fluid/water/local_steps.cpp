@@ -12,14 +12,14 @@ constexpr double part_at = 2.0, join_at = 1.6;
 constexpr double near_cost = 1.2, least_gain = 1.15;
 
 /// The box of a group's particles.
-void add_group(const ParticleSet& set, const Group& group, Extent& box) {
-  for (std::uint32_t i = group.begin; i < group.end; ++i) box.add(place_of(set.particles, i));
+void add_group(const ParticleSet& set, const Group& group, Bounds& box) {
+  for (std::uint32_t i = group.begin; i < group.end; ++i) box.include(place_of(set.particles, i));
 }
 
 /// Cells as wide as the reach about a box: those of fast particles and their neighbours hold all whom a fast one may meet.
 class MarkedCells {
  public:
-  MarkedCells(const Extent& box, double width) : low_(box.low), cell_(width) {
+  MarkedCells(const Bounds& box, double width) : low_(box.low), cell_(width) {
     for (;; cell_ *= 1.5) {
       double cells = 1;
       for (int a = 0; a < 3; ++a) {
@@ -83,7 +83,7 @@ std::vector<char> LocalSteps::best_fast_bodies(const std::vector<BodyLimit>& lim
     const double ratio = limits[order[m]].step / least;
     if (ratio < (parted() ? join_at : part_at)) continue;
     double near_count = 0;
-    Extent box;
+    Bounds box;
     for (std::size_t k = 0; k < m; ++k) {
       const Group& group = all.groups[order[k]];
       near_count += group.end - group.begin;
@@ -197,7 +197,7 @@ void LocalSteps::gather(double dt) {
   const auto timer = water_.timers.measure("local steps");
   const ParticleSet& all = water_.all;
   const Particles& p = all.particles;
-  Extent box;
+  Bounds box;
   for (const Group& group : all.groups)
     if (group.fast) add_group(all, group, box);
   double fastest = 0;

@@ -16,7 +16,7 @@ void Signals::watch(const Settings& settings, ParticleSet& set) {
     const FluidRow& q = p.predicted[i];
     const double a2 = rate.fx * rate.fx + rate.fy * rate.fy + rate.fz * rate.fz;
     // Round-off of the pressure itself, too, is rest.
-    if (std::sqrt(a2) * q.rho * q.h > 1e-10 * std::abs(q.p) + 1e-14 * q.rho * q.c * q.c) disturbed_.add(place_of(p, i));
+    if (std::sqrt(a2) * q.rho * q.h > 1e-10 * std::abs(q.p) + 1e-14 * q.rho * q.c * q.c) disturbed_.include(place_of(p, i));
   }
   find(set);
   for (std::uint32_t i = 0; i < p.size(); ++i)
@@ -26,21 +26,21 @@ void Signals::watch(const Settings& settings, ParticleSet& set) {
 void Signals::find(const ParticleSet& set) {
   if (everywhere_) return;
   for (const Group& group : set.groups) {
-    Extent found;
+    Bounds found;
 #pragma omp parallel
     {
-      Extent mine;
+      Bounds mine;
 #pragma omp for schedule(static)
       for (std::uint32_t i = group.begin; i < group.end; ++i) {
         const FluidRow& q = set.particles.predicted[i];
         const double vz = rings_ ? 0.0 : q.vz, v2 = q.vx * q.vx + q.vy * q.vy + vz * vz, still = share_ * q.c;
         if (v2 > still * still || std::abs(q.rho - group.rest_density) > share_ * group.rest_density)
-          mine.add(place_of(set.particles, i));
+          mine.include(place_of(set.particles, i));
       }
 #pragma omp critical
-      found.add(mine);
+      found.include(mine);
     }
-    disturbed_.add(found);
+    disturbed_.include(found);
   }
 }
 

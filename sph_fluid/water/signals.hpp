@@ -5,24 +5,6 @@
 
 namespace undex::sph {
 
-/// A box that grows.
-struct Extent {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-
-  void add(const Vec3& x) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  void add(const Extent& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-  bool within(const Vec3& x, double margin) const {
-    return ((low.array() - margin) <= x.array()).all() && (x.array() <= (high.array() + margin)).all();
-  }
-  double distance(const Vec3& x) const { return (low - x).cwiseMax(x - high).cwiseMax(0.0).norm(); }
-};
-
 class Signals {
  public:
   /// After the first evaluation: who is not at rest? Whoever is accelerated, be it by an imbalance of the lattice (rings have
@@ -35,7 +17,7 @@ class Signals {
   void find(const ParticleSet& set);
 
   /// Is a particle at x left out, when pairs reach that far [m]?
-  bool leaves_out(const Vec3& x, double reach) const { return !everywhere_ && !disturbed_.within(x, reach); }
+  bool leaves_out(const Vec3& x, double reach) const { return !everywhere_ && !disturbed_.holds(x, reach); }
   void describe(PairInput& in, double margin) const;
   void visit_state(StateVisitor& state);
 
@@ -43,7 +25,7 @@ class Signals {
   bool everywhere_ = true;
   double share_ = 0;
   bool rings_ = false;  // the rows' vz is an area
-  Extent disturbed_;    // the particles that are no longer in their first state of rest
+  Bounds disturbed_;    // the particles that are no longer in their first state of rest
 };
 
 }  // namespace undex::sph

@@ -1,6 +1,7 @@
 // Points of a wet surface: the nearest one, and where it goes with the nodes.
 #include "core/surface.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,12 +1,13 @@
 // The hexahedron by itself: patch test, rigid motion, zero modes, highest frequency.
 #include "fem_structure/elements.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "bodies.hpp"
+#include "matrices.hpp"
 
 namespace undex::fem::testing {
 namespace {
@@ -35,28 +36,6 @@ double largest(const Nodes& values) {
   double most = 0.0;
   for (const Vec3& v : values) most = std::max(most, v.norm());
   return most;
-}
-
-/// Stiffness and lumped masses of all degrees of freedom.
-void assemble(const Elements& elements, const Grid& grid, Eigen::MatrixXd& stiffness, Eigen::VectorXd& mass) {
-  const int n = static_cast<int>(grid.nodes.size());
-  stiffness.resize(3 * n, 3 * n);
-  mass.resize(3 * n);
-  Nodes u(n), f(n);
-  for (int i = 0; i < n; ++i)
-    for (int d = 0; d < 3; ++d) {
-      for (Vec3& v : u) v.setZero();
-      u[i][d] = 1.0;
-      elements.linear_force(grid.nodes, u, f);
-      for (int j = 0; j < n; ++j) stiffness.block<3, 1>(3 * j, 3 * i + d) = f[j];
-      mass[3 * i + d] = elements.nodal_mass()[i];
-    }
-}
-
-double highest_frequency(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& mass) {
-  const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff());
 }
 
 TEST(Elements, LinearDisplacementGivesUniformStressAndNoForceInside) {
@@ -147,11 +126,9 @@ TEST(Elements, ForceIsTheDerivativeOfTheWork) {
 TEST(Elements, OneCellHasSixZeroModes) {
   const Grid grid = distorted_block({1, 1, 1}, 0.15);
   const Elements elements(grid, elastic(1.0, 1.0, 0.3), 0.0, 0.0);
-  Eigen::MatrixXd stiffness;
-  Eigen::VectorXd mass;
-  assemble(elements, grid, stiffness, mass);
-  EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-14 * stiffness.norm());
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
+  const Matrices m(elements, grid);
+  EXPECT_LT((m.stiffness - m.stiffness.transpose()).norm(), 1e-14 * m.stiffness.norm());
+  const Eigen::VectorXd values = eigenvalues(m.stiffness);
   EXPECT_LT(std::abs(values[5]), 1e-14 * values[23]);
   EXPECT_GT(values[0], -1e-14 * values[23]);
   EXPECT_GT(values[6], 0.01 * values[23]) << "an hourglass mode";
@@ -162,10 +139,8 @@ TEST(Elements, NearlyIncompressibleCellStaysSoftInBending) {
   // bulk modulus: only one volumetric constraint per cell.
   const Grid grid = distorted_block({1, 1, 1}, 0.1);
   const Elements elements(grid, elastic(1.0, 1.0, 0.49999), 0.0, 0.0);
-  Eigen::MatrixXd stiffness;
-  Eigen::VectorXd mass;
-  assemble(elements, grid, stiffness, mass);
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness).eigenvalues();
+  const Matrices m(elements, grid);
+  const Eigen::VectorXd values = eigenvalues(m.stiffness);
   EXPECT_LT(values[22], 2.0);
   EXPECT_GT(values[23], 1e3);
 }
@@ -187,10 +162,8 @@ TEST(Elements, StableStepOfOneCellIsItsHighestFrequency) {
   for (double poisson : {0.0, 0.3, 0.45}) {
     const Grid grid = distorted_block({1, 1, 1}, 0.2);
     const Elements elements(grid, elastic(1.0, 1.0, poisson), 0.0, 0.0);
-    Eigen::MatrixXd stiffness;
-    Eigen::VectorXd mass;
-    assemble(elements, grid, stiffness, mass);
-    EXPECT_NEAR(elements.critical_step() * highest_frequency(stiffness, mass), 2.0, 2e-3);
+    const Matrices m(elements, grid);
+    EXPECT_NEAR(elements.critical_step() * m.highest_frequency(), 2.0, 2e-3);
   }
 }
 
@@ -198,10 +171,8 @@ TEST(Elements, StableStepIsSafeForAnAssembly) {
   for (double poisson : {0.0, 0.3, 0.45}) {
     const Grid grid = distorted_block({3, 3, 2}, 0.15);
     const Elements elements(grid, elastic(1.0, 1.0, poisson), 0.0, 0.0);
-    Eigen::MatrixXd stiffness;
-    Eigen::VectorXd mass;
-    assemble(elements, grid, stiffness, mass);
-    const double share = elements.critical_step() * highest_frequency(stiffness, mass) / 2.0;
+    const Matrices m(elements, grid);
+    const double share = elements.critical_step() * m.highest_frequency() / 2.0;
     RecordProperty("share_of_true_limit_" + std::to_string(poisson), std::to_string(share));
     EXPECT_LE(share, 1.0);
     EXPECT_GT(share, 0.6);
@@ -217,10 +188,8 @@ TEST(Elements, StableStepFollowsTheStrainedCells) {
     if (step % 15) continue;
     Grid now = grid;
     now.nodes = at.x;
-    Eigen::MatrixXd stiffness;
-    Eigen::VectorXd mass;
-    assemble(elements, now, stiffness, mass);
-    const double share = elements.critical_step() * highest_frequency(stiffness, mass) / 2.0;
+    const Matrices m(elements, now);
+    const double share = elements.critical_step() * m.highest_frequency() / 2.0;
     EXPECT_LE(share, 1.0) << step;
     EXPECT_GT(share, 0.6) << step;
   }

@@ -1,6 +1,6 @@
 // Bodies of revolution in their meridian: rings of quadrangles and thin-walled ones by themselves, and in motion, against exact
 // values and the hexahedra of three dimensions.
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "bodies.hpp"
+#include "matrices.hpp"
 #include "core/gmsh_file.hpp"
 #include "core/surface.hpp"
 #include "fem_structure/shell_elements.hpp"
@@ -107,38 +108,11 @@ std::unique_ptr<ElementSet> rings(ElementKind kind, const Settings& settings, co
 }
 constexpr ElementKind both[] = {ElementKind::hexahedron, ElementKind::shell};
 
-/// Stiffness and masses of the free components: radial and axial, but for the radial ones on the axis.
-struct Matrices {
-  std::vector<std::array<int, 2>> of;  ///< node and component
-  Eigen::MatrixXd stiffness;
-  Eigen::VectorXd mass;
-
-  Matrices(const ElementSet& elements, const Grid& grid, const std::function<bool(const Vec3&, int)>& held = {}) {
-    const int n = static_cast<int>(grid.nodes.size());
-    for (int i = 0; i < n; ++i)
-      for (int d = 0; d < 2; ++d)
-        if (!(d == 0 && grid.nodes[i][0] == 0.0) && !(held && held(grid.nodes[i], d))) of.push_back({i, d});
-    const int free = static_cast<int>(of.size());
-    stiffness.resize(free, free);
-    mass.resize(free);
-    Nodes u(n, Vec3::Zero()), f(n);
-    for (int a = 0; a < free; ++a) {
-      const auto [i, d] = of[a];
-      u[i][d] = 1.0;
-      elements.linear_force(grid.nodes, u, f);
-      u[i][d] = 0.0;
-      for (int b = 0; b < free; ++b) stiffness(b, a) = f[of[b][0]][of[b][1]];
-      mass[a] = elements.nodal_mass()[i];
-    }
-  }
-  /// Squares of the frequencies, increasing.
-  Eigen::VectorXd squares() const {
-    const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues();
-  }
-  double highest_frequency() const { return std::sqrt(squares().maxCoeff()); }
-};
+/// Of the free components: radial and axial, but for the radial ones on the axis.
+Matrices ring_matrices(const ElementSet& elements, const Grid& grid, const Matrices::Held& held = {}) {
+  return Matrices(elements, grid, 2,
+                  [&](const Vec3& node, int d) { return (d == 0 && node[0] == 0.0) || (held && held(node, d)); });
+}
 
 double ring_area(double inner, double outer) { return pi * (outer * outer - inner * inner); }
 
@@ -252,9 +226,9 @@ TEST(Rings, OneCellHasOneZeroMode) {
   for (const ElementKind kind : both) {
     const Settings settings = tube(1.0, 2.0, 0.0, 1.0, 1, 1, soft);
     const Grid grid = distorted(settings, 0.05);
-    const Matrices m(*rings(kind, settings, grid), grid);
+    const Matrices m = ring_matrices(*rings(kind, settings, grid), grid);
     EXPECT_LT((m.stiffness - m.stiffness.transpose()).norm(), 1e-14 * m.stiffness.norm());
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m.stiffness).eigenvalues();
+    const Eigen::VectorXd values = eigenvalues(m.stiffness);
     EXPECT_LT(std::abs(values[0]), 1e-13 * values[7]);
     EXPECT_GT(values[1], 1e-3 * values[7]) << "the section's turning strains the hoop alone";
     EXPECT_GT(values[2], 5e-3 * values[7]) << "an hourglass mode";
@@ -264,8 +238,8 @@ TEST(Rings, OneCellHasOneZeroMode) {
 TEST(Rings, NearlyIncompressibleCellHasOneStiffMode) {
   const Settings settings = tube(1.0, 2.0, 0.0, 1.0, 1, 1, elastic(1.0, 1.0, 0.49999));
   const Grid grid = distorted(settings, 0.05);
-  const Matrices m(*rings(ElementKind::hexahedron, settings, grid), grid);
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m.stiffness).eigenvalues();
+  const Matrices m = ring_matrices(*rings(ElementKind::hexahedron, settings, grid), grid);
+  const Eigen::VectorXd values = eigenvalues(m.stiffness);
   EXPECT_LT(values[6], 40.0);  // of shear, times the ring of 2 pi 1.5 m
   EXPECT_GT(values[7], 1e4);
 }
@@ -293,12 +267,12 @@ TEST(Rings, StableStepIsThatOfTheHighestFrequency) {
       for (const Settings& settings : {rod(1.0, 0.0, 1.0, 1, 1, metal), tube(1.0, 2.0, 0.0, 1.0, 1, 1, metal)}) {
         const Grid one = distorted(settings, 0.1);
         const auto cell = rings(kind, settings, one);
-        EXPECT_NEAR(cell->critical_step() * Matrices(*cell, one).highest_frequency(), 2.0, 2e-3);
+        EXPECT_NEAR(cell->critical_step() * ring_matrices(*cell, one).highest_frequency(), 2.0, 2e-3);
       }
       const Settings settings = rod(4.0, 0.0, 4.0, 4, 4, metal);
       const Grid many = distorted(settings, 0.1);
       const auto assembly = rings(kind, settings, many);
-      const double share = assembly->critical_step() * Matrices(*assembly, many).highest_frequency() / 2.0;
+      const double share = assembly->critical_step() * ring_matrices(*assembly, many).highest_frequency() / 2.0;
       RecordProperty("share_of_true_limit_" + std::to_string(poisson), std::to_string(share));
       EXPECT_LE(share, 1.0);
       EXPECT_GT(share, 0.6);
@@ -311,7 +285,7 @@ Nodes pressed_still(ElementKind kind, const Settings& settings, const std::vecto
   const Mesher mesher(settings);
   const Grid& grid = mesher.grid();
   const auto elements = rings(kind, settings, grid);
-  const Matrices m(*elements, grid, held);
+  const Matrices m = ring_matrices(*elements, grid, held);
   Nodes load(grid.nodes.size(), Vec3::Zero());
   for (const std::string& face : faces)
     for (const auto& segment : grid.faces.at(face)) {
@@ -322,7 +296,7 @@ Nodes pressed_still(ElementKind kind, const Settings& settings, const std::vecto
     }
   Eigen::VectorXd right(m.of.size());
   for (std::size_t k = 0; k < m.of.size(); ++k) right[k] = load[m.of[k][0]][m.of[k][1]];
-  const Eigen::VectorXd solution = m.stiffness.ldlt().solve(right);
+  const Eigen::VectorXd solution = m.solve(right);
   Nodes displacement(grid.nodes.size(), Vec3::Zero());
   for (std::size_t k = 0; k < m.of.size(); ++k) displacement[m.of[k][0]][m.of[k][1]] = solution[k];
   return displacement;
@@ -457,7 +431,8 @@ TEST(Rings, BarOscillatesAsPochhammersWaves) {
     const int radial = 2 << mesh;
     const Grid grid = Mesher(rod(radius, 0.0, length, radial, 5 * radial, metal)).grid();
     const RingElements elements(grid, metal, 0.0, 0.0);
-    const Matrices m(elements, grid, [&](const Vec3& x, int d) { return d == 1 && (x[1] == 0.0 || x[1] == length); });
+    const Matrices m =
+        ring_matrices(elements, grid, [&](const Vec3& x, int d) { return d == 1 && (x[1] == 0.0 || x[1] == length); });
     const Eigen::VectorXd squares = m.squares();
     double nearest = 1e300;
     for (Eigen::Index i = 0; i < squares.size(); ++i) {

@@ -1,12 +1,13 @@
 // The solid shell by itself: patch tests, rigid motion, zero modes, energy, highest frequency, locking of the thickness.
 #include "fem_structure/shell_elements.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "bodies.hpp"
+#include "matrices.hpp"
 
 namespace undex::fem::testing {
 namespace {
@@ -55,31 +56,6 @@ double largest(const Nodes& values) {
 ShellElements shells(const Grid& grid, const materials::Solid& material, int through, int layers = 5) {
   return ShellElements(grid, material, 0.0, 0.0, through, layers);
 }
-
-struct Matrices {
-  Eigen::MatrixXd stiffness;
-  Eigen::VectorXd mass;
-
-  Matrices(const ElementSet& elements, const Grid& grid) {
-    const int n = static_cast<int>(grid.nodes.size());
-    stiffness.resize(3 * n, 3 * n);
-    mass.resize(3 * n);
-    Nodes u(n), f(n);
-    for (int i = 0; i < n; ++i)
-      for (int d = 0; d < 3; ++d) {
-        for (Vec3& v : u) v.setZero();
-        u[i][d] = 1.0;
-        elements.linear_force(grid.nodes, u, f);
-        for (int j = 0; j < n; ++j) stiffness.block<3, 1>(3 * j, 3 * i + d) = f[j];
-        mass[3 * i + d] = elements.nodal_mass()[i];
-      }
-  }
-  double highest_frequency() const {
-    const Eigen::VectorXd root = mass.cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = root.asDiagonal() * stiffness * root.asDiagonal();
-    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff());
-  }
-};
 
 TEST(ShellElements, MembranePatch) {
   // Any uniform strain of a flat sheet of distorted cells, in any orientation of the sheet and number of layers.
@@ -213,7 +189,7 @@ TEST(ShellElements, OneCellHasSixZeroModes) {
     distort(grid, 0.05);
     const Matrices m(shells(grid, elastic(1.0, 1.0, 0.3), 0, layers), grid);
     EXPECT_LT((m.stiffness - m.stiffness.transpose()).norm(), 1e-14 * m.stiffness.norm());
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m.stiffness).eigenvalues();
+    const Eigen::VectorXd values = eigenvalues(m.stiffness);
     EXPECT_LT(std::abs(values[5]), 1e-13 * values[23]);
     EXPECT_GT(values[0], -1e-13 * values[23]);
     EXPECT_GT(values[6], 1e-4 * values[23]) << "a mechanism";
@@ -224,7 +200,7 @@ TEST(ShellElements, NearlyIncompressibleCellHasOneStiffMode) {
   Grid grid = sheet(2, {1, 1}, 0.5);
   distort(grid, 0.02);
   const Matrices m(shells(grid, elastic(1.0, 1.0, 0.49999), 2), grid);
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m.stiffness).eigenvalues();
+  const Eigen::VectorXd values = eigenvalues(m.stiffness);
   RecordProperty("second", std::to_string(values[22]));
   EXPECT_LT(values[22], 3.0);
   EXPECT_GT(values[23], 1e3);

@@ -1,6 +1,6 @@
 // Meshes through deal.II: triangulation, boundary ids, shape functions, quadrature and point location. This is the only
-// file of the program that sees deal.II's headers; everything leaves it as plain arrays.
-#include "fem_structure/grid.hpp"
+// file that sees deal.II's headers; everything leaves it as plain arrays.
+#include "fem_structure/deal_mesh.hpp"
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -12,16 +12,14 @@
 #include <deal.II/grid/tria.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numbers>
-#include <stdexcept>
 
-#include "core/gmsh_file.hpp"
 #include "core/surface.hpp"
-#include "fem_structure/blocks.hpp"
 
 namespace undex::fem {
 namespace {
@@ -108,14 +106,6 @@ void create(dealii::Triangulation<dim>& triangulation, const HexahedralMesh& mes
   name_faces<dim>(triangulation, id_of);
 }
 
-HexahedralMesh read_mesh(const GmshMesh& mesh, GmshCells cells, const std::string& who) {
-  try {
-    return read_gmsh(mesh.path, cells);
-  } catch (const std::invalid_argument& mistake) {
-    throw std::invalid_argument(who + ": " + mistake.what());
-  }
-}
-
 /// The same lanes for the points of each cell that fills them.
 template <int dim>
 void take_reference_cell(const dealii::FE_Q<dim>& element, const dealii::QGauss<dim>& rule, ReferenceCell& reference) {
@@ -132,67 +122,28 @@ void take_reference_cell(const dealii::FE_Q<dim>& element, const dealii::QGauss<
   }
 }
 
-/// The smallest Jacobian determinant over the cell's corners and quadrature points; of a ring, that of its section.
-double smallest_jacobian(const Grid& grid, const std::array<int, 8>& cell) {
-  const std::array<Vec3, 8> at = corners_of(cell, grid.nodes);
-  const auto corner = [&](int i, int j, int k, int l) { return (at[j] - at[i]).cross(at[k] - at[i]).dot(at[l] - at[i]); };
-  double smallest = std::min({corner(0, 1, 3, 4), corner(1, 2, 0, 5), corner(2, 3, 1, 6), corner(3, 0, 2, 7), corner(4, 7, 5, 0),
-                              corner(5, 4, 6, 1), corner(6, 5, 7, 2), corner(7, 6, 4, 3)});
-  for (int q = 0; q < 8; ++q) {
-    Mat3 jacobian = Mat3::Zero();
-    for (int i = 0; i < 8; ++i)
-      for (int d = 0; d < 3; ++d) jacobian.col(d) += grid.nodes[cell[i]] * grid.reference.gradient[d][i][q];
-    if (grid.axisymmetric) jacobian(2, 2) = 1.0;
-    smallest = std::min(smallest, jacobian.determinant());
-  }
-  return smallest;
-}
-
-}  // namespace
-
-struct Mesher::Held {
-  Grid grid;
-
-  virtual ~Held() = default;
-  virtual std::optional<Place> containing_cell(const Vec3& reference_position) = 0;
-};
-
-namespace {
-
 /// Hexahedra (dim = 3), or the quadrangles of a meridian.
 template <int dim>
-struct Built final : Mesher::Held {
+struct Built final : DealMesh {
   dealii::Triangulation<dim> triangulation;
   dealii::MappingQ1<dim> mapping;
   std::unique_ptr<dealii::GridTools::Cache<dim>> cache;  // costly, built at the first question
 
-  explicit Built(const Settings& settings);
-  void take_cells(const std::string& who, const std::vector<std::string>& names);
+  explicit Built(const MeshSource& source);
+  void take_cells(const std::vector<std::string>& names);
   std::optional<Place> containing_cell(const Vec3& reference_position) override;
 };
 
 template <int dim>
-Built<dim>::Built(const Settings& settings) {
-  const std::string who = "structure '" + settings.name + "'";
-  std::vector<std::string> names;
-  const auto build = [&](const auto& mesh) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(mesh)>, GmshMesh>) {
-      create<dim>(triangulation,
-                  mesh.read ? *mesh.read : read_mesh(mesh, dim == 3 ? GmshCells::hexahedra : GmshCells::quadrangles, who));
-    } else {
-      const Blocks blocks =
-          dim == 3 ? build_blocks(mesh, settings.symmetry_axes, who) : build_meridian(mesh, settings.symmetry_axes, who);
-      create<dim>(triangulation, blocks);
-      names = blocks.names;
-    }
-  };
-  std::visit(build, settings.mesh);
-  take_cells(who, names);
+Built<dim>::Built(const MeshSource& source) {
+  if (source.blocks) create<dim>(triangulation, *source.blocks);
+  else create<dim>(triangulation, *source.mesh);
+  take_cells(source.blocks ? source.blocks->names : std::vector<std::string>());
 }
 
 /// Cells, their volumes and their faces as plain arrays. Without names those of the faces are their ids.
 template <int dim>
-void Built<dim>::take_cells(const std::string& who, const std::vector<std::string>& names) {
+void Built<dim>::take_cells(const std::vector<std::string>& names) {
   const dealii::FE_Q<dim> element(1);
   const dealii::QGauss<dim> rule(2);
   grid.axisymmetric = dim == 2;
@@ -211,10 +162,6 @@ void Built<dim>::take_cells(const std::string& who, const std::vector<std::strin
       grid.cells[c][i] = static_cast<int>(cell->vertex_index(to_dealii[i % cell_nodes<dim>]));
       center += grid.nodes[grid.cells[c][i]] / 8.0;
     }
-    if (!(smallest_jacobian(grid, grid.cells[c]) > 0.0))
-      throw std::invalid_argument(who + ": cell " + std::to_string(c) + " near (" + std::to_string(center[0]) + ", " +
-                                  std::to_string(center[1]) + ", " + std::to_string(center[2]) +
-                                  ") m is inverted or flat; repair the mesh there");
     values.reinit(cell);
     grid.nodal_volume[c].fill(0.0);
     for (unsigned i = 0; i < cell_nodes<dim>; ++i)
@@ -260,20 +207,10 @@ std::optional<Place> Built<dim>::containing_cell(const Vec3& reference_position)
 }
 
 }  // namespace
-
-Mesher::Mesher(const Settings& settings) {
-  dealii::MultithreadInfo::set_thread_limit(1);  // OpenMP has the cores
-  if (settings.axisymmetric) held_ = std::make_unique<Built<2>>(settings);
-  else held_ = std::make_unique<Built<3>>(settings);
-}
-Mesher::~Mesher() = default;
-Mesher::Mesher(Mesher&&) noexcept = default;
-Mesher& Mesher::operator=(Mesher&&) noexcept = default;
-
-const Grid& Mesher::grid() const { return held_->grid; }
-
-std::optional<Place> Mesher::containing_cell(const Vec3& reference_position) const {
-  return held_->containing_cell(reference_position);
-}
-
 }  // namespace undex::fem
+
+undex::fem::DealMesh* undex_deal_mesh(const undex::fem::MeshSource& source) {
+  dealii::MultithreadInfo::set_thread_limit(1);  // OpenMP has the cores
+  if (source.axisymmetric) return new undex::fem::Built<2>(source);
+  return new undex::fem::Built<3>(source);
+}
