@@ -131,10 +131,6 @@ class Judge {
     if (!is_along(solid.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
     if (!solid.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (solid.residual_stress != 0.0) object(path + ".residual_stress", "it is there for cylinders in two and three dimensions");
-    if (solid.description != solid::Description::total_lagrangian)
-      object(
-          path + ".description",
-          "solids of revolution are computed with the neighbours of the start: take \"total_lagrangian\", or three dimensions");
     slip(scene_.fluid.bodies.empty());
   }
 

@@ -12,8 +12,6 @@ Settings in_meridian(Settings settings, const sph::Settings& around) {
     throw std::invalid_argument("gravity: in an axisymmetric scene it acts along the axis");
   for (Body& body : settings.bodies) {
     const auto refuse = [&](const char* why) { throw std::invalid_argument("solid '" + body.name + "': " + why); };
-    if (body.description != Description::total_lagrangian)
-      refuse("description = \"updated_lagrangian\" has no rings about an axis; use \"total_lagrangian\" or three dimensions");
     if (!body.spin.isZero(0.0)) refuse("spin: rings of an axisymmetric scene do not turn; use three dimensions");
     if (body.residual_stress != 0.0)
       refuse("residual_stress: it is there for cylinders in two and three dimensions, not in the meridian");

@@ -11,6 +11,7 @@ struct SolidLoops {
   void (*contact_overlap)(const sph::PairInput&, const sph::PairOutput&);
   void (*contact_forces)(const sph::PairInput&, const sph::PairOutput&);
 };
-SolidLoops solid_loops();
+/// Those of rings about an axis (solid_rings.hpp), or of the plane and of space.
+SolidLoops solid_loops(bool rings);
 
 }  // namespace undex::solid

@@ -33,6 +33,7 @@ SolidPairs::SolidPairs(const Settings& settings, const sph::Settings& around, st
   solid_.resize(n);
   if (updated_) deformation_.resize(n);
   sums_.resize(n);
+  if (updated_ && around.axisymmetric) axis_width_ = width_of_axis(settings.numerics.eta);
   if (updated_ && !around.bodies.empty()) inverse_deformation_.assign(n, Mat3::Identity());
   scratch_.resize(std::max(omp_get_max_threads(), around.numerics.threads));
 }
@@ -65,13 +66,6 @@ void SolidPairs::add_forces(SolidParticles& particles, const std::vector<Vec3>& 
   scatter_images();
   if (contact) run(loops_.contact_forces, input(contact_views_));
   write_back(particles);
-}
-
-/// Length of the ring of a particle of a body of revolution [m]; 1 in the plane and in space. Contact meets areas of the
-/// meridian where it otherwise meets volumes, and stresses times the rings' lengths, which are those of the start: with these the
-/// forces are the exact derivative of sum V q^2/(2 K) with respect to r as well.
-double SolidPairs::ring(const SolidParticles& p, std::uint32_t i) const {
-  return around_.axisymmetric ? 2.0 * std::numbers::pi * p.start[i][0] : 1.0;
 }
 
 /// The contact pressure of the present overlap. Bodies that touch at the start do so without pressure.
@@ -124,10 +118,16 @@ void SolidPairs::pack(const SolidParticles& p) {
     x_[k] = p.x[i][0];
     y_[k] = p.x[i][1];
     z_[k] = p.x[i][2];
-    rows_[k] = {p.v[i][0], p.v[i][1], p.v[i][2], p.pressure[i], p.mass[i] / (p.rho[i] * ring(p, i)), p.rho[i], p.sound[i], 0.0};
+    rows_[k] = {p.v[i][0], p.v[i][1], p.v[i][2], p.pressure[i], p.mass[i] / p.rho[i], p.rho[i], p.sound[i], 0.0};
   }
   for (const Range& range : ranges_)
-    for (std::uint32_t k = range.begin; k < range.end; ++k) rows_[k].h = contact_h(range);
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      FluidRow& row = rows_[k];
+      row.h = contact_h(range);
+      if (!around_.axisymmetric) continue;
+      row.volume = p.mass[particle_[k]] / (p.rho[particle_[k]] * ring(p, range, particle_[k]));
+      row.vz = x_[k];
+    }
   blocks_.build(views_, reach);
   interactions_.assign(blocks_.block_count(), 0);
 }
@@ -252,6 +252,7 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
       const std::uint32_t last = std::min(range.end, first + batch);
       Deformation step;
       for (std::uint32_t k = first; k < last; ++k) {
+        if (around_.axisymmetric) add_hoop_strain(p, range, k);
         const DeformationRow& row = deformation_[k];
         const std::uint32_t i = particle_[k];
         if (dt <= 0.0) continue;
@@ -275,16 +276,22 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
       const std::uint32_t i = particle_[k];
       FluidRow& row = rows_[k];
       const Vec3 v = p.v[i] + 0.5 * dt * acceleration[i];
-      row.vx = v[0], row.vy = v[1], row.vz = v[2];
+      row.vx = v[0], row.vy = v[1];
+      if (!around_.axisymmetric) row.vz = v[2];
       Mat3 sigma = p.stress(i);
       sigma.diagonal().array() -= p.viscous_pressure[i];
       SolidRow& solid = solid_[k];
       if (range.updated) {
         // Volumes stay those of the pass that found B: the power of the forces is then exactly that of the stresses.
         const double* B = deformation_[k].correction;
-        Mat3 correction;
+        Mat3 correction, paired = sigma;
         correction << B[0], B[3], B[5], B[3], B[1], B[4], B[5], B[4], B[2];
-        const Mat3 corrected = (p.mass[i] / (p.rho[i] * row.volume)) * sigma * correction;
+        double swollen = p.mass[i] / (p.rho[i] * row.volume);
+        if (around_.axisymmetric) {
+          paired(0, 0) += (1.0 - own_hoop(p, range, i)) * hoop_stress(sigma, k);
+          swollen /= 2.0 * std::numbers::pi;  // a ring's length over 2 pi: B comes without it
+        }
+        const Mat3 corrected = swollen * paired * correction;
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b < 3; ++b) solid.corrected[3 * a + b] = corrected(a, b);
         const double* g = deformation_[k].gradient;
@@ -294,11 +301,12 @@ void SolidPairs::fill_rows(const SolidParticles& p, const std::vector<Vec3>& acc
           solid.strain[3 + a] = 0.5 * (g[3 * b + c] + g[3 * c + b]);
         }
       } else {
-        row.volume = p.mass[i] / (p.rho[i] * ring(p, i));
+        row.volume = p.mass[i] / (p.rho[i] * ring(p, range, i));
       }
-      row.p = ring(p, i) * p.contact_pressure[i];
+      const double length = around_.axisymmetric && range.updated ? p.mass[i] / (p.rho[i] * row.volume) : ring(p, range, i);
+      row.p = length * p.contact_pressure[i];
       row.rho = p.rho[i];
-      row.c = ring(p, i) * p.sound[i];
+      row.c = length * p.sound[i];
       solid.stress[0] = sigma(0, 0), solid.stress[1] = sigma(1, 1), solid.stress[2] = sigma(2, 2);
       solid.shear_sound = std::sqrt(range.body->material.shear_modulus / p.rho[i]);
       solid.stress[3] = sigma(1, 2), solid.stress[4] = sigma(2, 0), solid.stress[5] = sigma(0, 1);
@@ -314,6 +322,7 @@ void SolidPairs::write_back(SolidParticles& p) const {
       const SumRow& sum = sums_[k];
       const double shear_sound = solid_[k].shear_sound;
       p.force[i] += rows_[k].volume * Vec3(sum.fx, sum.fy, sum.fz);
+      if (around_.axisymmetric && range.updated) add_hoop_forces(p, range, k);
       const double heat = rows_[k].volume * sum.heat / p.mass[i];
       p.heat[i] = range.updated ? heat : p.heat[i] + heat;
       const double rate = (p.sound[i] + 0.6 * (numerics.alpha * shear_sound + numerics.beta * sum.closing)) / range.spacing;

@@ -1,7 +1,8 @@
 // The passes of solids over pairs of the present: stresses and forces of bodies in an updated Lagrangian description, and
 // contact between bodies of either. Particles are copied into rows sorted by cell, and what they receive is copied back.
 // Particles of updated bodies that touch a rigid plane, and those upon them, have images behind it (plane_contact.hpp), which
-// are rows too.
+// are rows too. In the meridian of a body of revolution rows hold areas and radii (solid_rings.hpp), and each ring has a hoop of
+// its own (solid_pairs_rings.cpp).
 #pragma once
 
 #include <cstdint>
@@ -50,19 +51,26 @@ class SolidPairs {
   void run(void (*pass)(const sph::PairInput&, const sph::PairOutput&), const sph::PairInput& in);
   void update_stresses(SolidParticles& particles, double dt);
   void fill_rows(const SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
-  double ring(const SolidParticles& particles, std::uint32_t i) const;
+  static double width_of_axis(double eta);
+  double ring(const SolidParticles& particles, const Range& range, std::uint32_t i) const;
+  /// Of rings of updated bodies; rows are those of the passes. Share of the hoop strain that is its own.
+  double own_hoop(const SolidParticles& particles, const Range& range, std::uint32_t i) const;
+  void add_hoop_strain(const SolidParticles& particles, const Range& range, std::uint32_t row);
+  double hoop_stress(const Mat3& sigma, std::uint32_t row) const;
+  void add_hoop_forces(SolidParticles& particles, const Range& range, std::uint32_t row) const;
   void find_contact(SolidParticles& particles, bool started);
   void write_back(SolidParticles& particles) const;
 
   const Settings& settings_;
   const sph::Settings& around_;
-  SolidLoops loops_ = solid_loops();
+  SolidLoops loops_ = solid_loops(around_.axisymmetric);
   std::vector<Range> ranges_;
   std::vector<sph::CellList> cells_;
   std::vector<sph::GroupView> views_;          ///< with the h of the bodies' own pairs
   std::vector<sph::GroupView> contact_views_;  ///< and of contact
   sph::BlockOrder blocks_;
   bool updated_ = false;
+  double axis_width_ = 0;                ///< at what radius half of the hoop strain is a ring's own, in spacings
   std::vector<std::uint32_t> particle_;  ///< of each row
   std::vector<double> x_, y_, z_;
   std::vector<sph::FluidRow> rows_;

@@ -73,6 +73,12 @@ struct VelocityGradient {
   }
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 
+  /// A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
+  UNDEX_INLINE static double trust_in(double determinant) {
+    constexpr double least = 0.015;
+    const double part = determinant / least;
+    return part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
+  }
   /// Fragments of too few particles have no inverse: they get the uncorrected sums. (Written out, not by adjugate() of
   /// moment_inverse.hpp: the compiler would fuse other products, and results differ by round-off.)
   void store(const Vec<double>* s, bool, const PairInput& in, std::uint32_t first, int count) const {
@@ -83,9 +89,7 @@ struct VelocityGradient {
       const double a = yy * zz - yz * yz, b = zx * yz - xy * zz, c = xy * yz - zx * yy;
       const double d = xx * zz - zx * zx, e = xy * zx - xx * yz, f = xx * yy - xy * xy;
       const double determinant = xx * a + xy * b + zx * c;
-      // A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
-      constexpr double least = 0.015;
-      const double part = determinant / least, trust = part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
+      const double trust = trust_in(determinant);
       const double inverse = determinant > 0.0 ? trust / determinant : 0.0, rest = 1.0 - trust;
       double* B = out[l].correction;
       B[0] = a * inverse + rest, B[1] = d * inverse + rest, B[2] = f * inverse + rest;

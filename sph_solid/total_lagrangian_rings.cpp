@@ -2,44 +2,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph_fluid/pairs/kernels.hpp"
+#include "sph_solid/first_column.hpp"
 #include "sph_solid/total_lagrangian.hpp"
 
 namespace undex::solid {
-namespace {
-
-/// Share of its hoop strain that the first column of a square lattice, half a spacing from the axis, takes from the next one, so
-/// that uniform pressure leaves it at rest, h being eta spacings. Columns lie at R = 1/2, 3/2 ..., their images at -1/2 ...
-template <class Kernel>
-double borrowed_share(double eta) {
-  const int reach = int(Kernel::support * eta);
-  const auto slope = [&](int m) {  // of all pairs of two columns, m apart
-    double sum = 0;
-    for (int z = -reach; z <= reach; ++z) sum -= sph::gradient_factor<Kernel>(std::hypot(m, z), eta, 2);
-    return sum;
-  };
-  const auto ring = [](double R, int m) { return std::abs(R + 0.5 * m); };
-  const auto over_columns = [&](auto of) {
-    double sum = 0;
-    for (int m = -reach; m <= reach; ++m)
-      if (m != 0) sum += of(m);
-    return sum;
-  };
-  const auto moment = [&](double R) { return over_columns([&](int m) { return ring(R, m) / R * slope(m) * m * m; }); };
-  const double own = moment(0.5);
-  const double inward =
-      over_columns([&](int m) { return (1.0 / own + 1.0 / moment(std::abs(0.5 + m))) * ring(0.5, m) * slope(m) * m; });
-  return 1.0 - inward;  // of what the hoop's pressure pushes outward
-}
-
-}  // namespace
-
 void TotalLagrangian::find_rings(double eta, const SolidParticles& p) {
   const std::uint32_t n = end_ - begin_;
   radius_.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) radius_[i] = p.start[begin_ + i][0];
   next_column_.assign(n, none);
-  borrowed_ = borrowed_share<Kernel>(eta);
+  borrowed_ = 1.0 - first_column(eta).inward;
   std::vector<std::uint32_t> near_axis;
   for (std::uint32_t i = 0; i < n; ++i)
     if (radius_[i] < 2.0 * spacing_) near_axis.push_back(i);

@@ -29,9 +29,11 @@ materials::Solid elastic(double nu = poisson) {
   return solid;
 }
 
-Body body(const Primitive& shape, materials::Solid material = elastic()) {
+Body body(const Primitive& shape, materials::Solid material = elastic(),
+          Description description = Description::total_lagrangian) {
   Body b;
   b.name = "body";
+  b.description = description;
   b.shape = {shape, {}};
   b.material = std::move(material);
   return b;
@@ -93,6 +95,18 @@ double frequency(Solids& solids, const std::function<double()>& projection, int 
   return 2 * pi * periods / (zero - first);
 }
 
+class Rings : public ::testing::TestWithParam<Description> {
+ protected:
+  bool updated() const { return GetParam() == Description::updated_lagrangian; }
+  Body ring(const Primitive& shape, materials::Solid material = elastic()) const {
+    return body(shape, std::move(material), GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Descriptions, Rings, ::testing::Values(Description::total_lagrangian, Description::updated_lagrangian),
+                         [](const auto& description) {
+                           return description.param == Description::total_lagrangian ? "Total" : "Updated";
+                         });
+
 TEST(SolidsOfRevolution, HaveTheMassOfTheWholeBody) {
   const auto mass = [](const Primitive& shape) { return Scene({body(shape)}, 0.001).start()->ledger().mass / density; };
   EXPECT_NEAR(mass(section(0, 0.01, -0.02, 0.005)) / (pi * 1e-4 * 0.025), 1.0, 1e-14);
@@ -100,11 +114,11 @@ TEST(SolidsOfRevolution, HaveTheMassOfTheWholeBody) {
   EXPECT_NEAR(mass(Sphere{Vec3(0, 0.003, 0), 0.01}) / (4.0 / 3.0 * pi * 1e-6), 1.0, 1e-5);
 }
 
-TEST(SolidsOfRevolution, UniformStretchStrainsEveryRingAlike) {
+TEST_P(Rings, UniformStretchStrainsEveryRingAlike) {
   // u_r = a r, u_z = b z + c, beside the axis as elsewhere, on any lattice.
   for (const Primitive& shape : {Primitive(section(0, 0.03, -0.02, 0.025)), Primitive(Sphere{Vec3::Zero(), 0.03}),
                                  Primitive(section(0.02, 0.04, 0, 0.025))}) {
-    Scene s({body(shape)}, 0.003);
+    Scene s({ring(shape)}, 0.003);
     s.around.lattice.jitter = 0.3;
     s.solids.numerics.linear_viscosity = s.solids.numerics.quadratic_viscosity = 0;
     const auto solids = s.start();
@@ -117,8 +131,8 @@ TEST(SolidsOfRevolution, UniformStretchStrainsEveryRingAlike) {
   }
 }
 
-TEST(SolidsOfRevolution, RigidMotionAlongTheAxisMakesNoStress) {
-  Body bar = body(section(0, 0.01, 0, 0.02));
+TEST_P(Rings, RigidMotionAlongTheAxisMakesNoStress) {
+  Body bar = ring(section(0, 0.01, 0, 0.02));
   bar.velocity = Vec3(0, 700, 0);
   const auto solids = Scene({bar}, 0.001).start();
   solids->advance(1e-4);
@@ -128,11 +142,11 @@ TEST(SolidsOfRevolution, RigidMotionAlongTheAxisMakesNoStress) {
   }
 }
 
-TEST(SolidsOfRevolution, UniformStressLeavesTheInsideAtRest) {
+TEST_P(Rings, UniformStressLeavesTheInsideAtRest) {
   // Isotropic compression of a cylinder: force beside the axis, over the pressure on a ring's face a spacing wide.
   const double dx = 0.001, R = 0.02;
   for (const double eta : {1.1, 1.3, 1.5}) {
-    Scene s({body(section(0, R, -R, R))}, dx);
+    Scene s({ring(section(0, R, -R, R))}, dx);
     s.solids.numerics = {.eta = eta, .linear_viscosity = 0, .quadratic_viscosity = 0};
     const auto solids = s.start();
     set_motion(*solids, [](const Vec3& x) { return Vec3(-100 * x); });
@@ -148,17 +162,18 @@ TEST(SolidsOfRevolution, UniformStressLeavesTheInsideAtRest) {
         EXPECT_LT(std::abs(solids->accelerations()[i][1]) * density * dx / p, 1e-9);
       }
     }
-    EXPECT_LT(worst[0], 1e-9) << eta;
-    EXPECT_LT(worst[1], eta < 1.4 ? 0.01 : 0.02) << eta;
+    // Updated: what the second column takes from its neighbours pushes the first, and the first's the second.
+    EXPECT_LT(worst[0], updated() ? 2e-3 : 1e-9) << eta;
+    EXPECT_LT(worst[1], (updated() ? 1.5 : 1.0) * (eta < 1.4 ? 0.01 : 0.02)) << eta;
     EXPECT_LT(worst[2], 2.0) << eta;  // at free surfaces, as in the plane
   }
 }
 
-TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
+TEST_P(Rings, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
   // Squeezed at its rim, slowly: Lame's solution is uniform. What a free surface makes of the pressure that one column gets is
   // the same for all inside.
   const double dx = 0.001, R = 0.012, p = 1e8, ramp = 40 * R / std::sqrt(young / density);
-  Scene s({body(section(0, R, 0, 0.04))}, dx);
+  Scene s({ring(section(0, R, 0, 0.04))}, dx);
   s.around.symmetry.axis[1] = true;
   const auto solids = s.start();
   std::vector<Vec3> impulse(solids->particle_count());
@@ -188,14 +203,14 @@ TEST(SolidsOfRevolution, CylinderUnderPressureIsStressedEvenlyToTheAxis) {
   }
 }
 
-TEST(SolidsOfRevolution, ThinRingBreathes) {
+TEST_P(Rings, ThinRingBreathes) {
   // sqrt(E/rho)/R for a thin one. A square section of half width e R moves as r^-nu and by -nu u z/r along the axis, without
   // stress across the ring; Rayleigh's quotient of that motion is 1 + (1 + 4 nu - nu^2) e^2/3 times the thin one's, to e^2.
   const double R = 0.1;
   double error[2];
   for (int level = 0; level < 2; ++level) {
     const double half = level == 0 ? 0.012 : 0.006;
-    const auto solids = Scene({body(section(R - half, R + half, -half, half))}, half / 2).start();
+    const auto solids = Scene({ring(section(R - half, R + half, -half, half))}, half / 2).start();
     set_motion(*solids, [](const Vec3&) { return Vec3(1, 0, 0); });
     const double found = frequency(
         *solids,
@@ -212,11 +227,11 @@ TEST(SolidsOfRevolution, ThinRingBreathes) {
   EXPECT_LT(std::abs(error[1]), 2e-4);
 }
 
-TEST(SolidsOfRevolution, BarRingsAtLovesFrequency) {
+TEST_P(Rings, BarRingsAtLovesFrequency) {
   const double length = 0.5, a = 0.025, k = pi / length;
   double error[2];
   for (int level = 0; level < 2; ++level) {
-    const auto solids = Scene({body(section(0, a, 0, length))}, a / (3 << level)).start();
+    const auto solids = Scene({ring(section(0, a, 0, length))}, a / (3 << level)).start();
     const std::vector<Vec3> X(solids->positions().begin(), solids->positions().end());
     set_motion(*solids, [&](const Vec3& x) { return Vec3(0, std::cos(k * x[1]), 0); });
     const double found = frequency(
@@ -235,7 +250,7 @@ TEST(SolidsOfRevolution, BarRingsAtLovesFrequency) {
   EXPECT_LT(std::abs(error[1]), 0.5 * std::abs(error[0]) + 5e-4);
 }
 
-TEST(SolidsOfRevolution, SphereBreathes) {
+TEST_P(Rings, SphereBreathes) {
   // Lamb 1882: x cot x = 1 - (c_l/(2 c_t))^2 x^2, x = omega R/c_l; motion along j1(x rho/R).
   const double R = 0.02, G = young / (2 * (1 + poisson)), K = young / (3 * (1 - 2 * poisson));
   const double cl = std::sqrt((K + 4 * G / 3) / density), ct = std::sqrt(G / density), q = cl * cl / (4 * ct * ct);
@@ -251,7 +266,7 @@ TEST(SolidsOfRevolution, SphereBreathes) {
   };
   double error[2];
   for (int level = 0; level < 2; ++level) {
-    const auto solids = Scene({body(Sphere{Vec3::Zero(), R})}, R / (12 << level)).start();
+    const auto solids = Scene({ring(Sphere{Vec3::Zero(), R})}, R / (12 << level)).start();
     const std::vector<Vec3> X(solids->positions().begin(), solids->positions().end());
     set_motion(*solids, [&](const Vec3& x) { return Vec3(mode(x)); });
     const double found = frequency(
@@ -269,16 +284,16 @@ TEST(SolidsOfRevolution, SphereBreathes) {
 }
 
 /// A ball that comes down on a disc, both plastic.
-Scene ball_on_disc(double speed, double spacing) {
-  Body ball = body(Sphere{Vec3(0, 0.0062, 0), 0.005}, *materials::find_solid("al-impact-table2"));
-  Body disc = body(section(0, 0.01, -0.003, 0), ball.material);
+Scene ball_on_disc(Description description, double speed, double spacing) {
+  Body ball = body(Sphere{Vec3(0, 0.0062, 0), 0.005}, *materials::find_solid("al-impact-table2"), description);
+  Body disc = body(section(0, 0.01, -0.003, 0), ball.material, description);
   disc.name = "disc";
   ball.velocity = Vec3(0, -speed, 0);
   return Scene({ball, disc}, spacing);
 }
 
-TEST(SolidsOfRevolution, ImpactConservesMomentumAndEnergy) {
-  const auto solids = ball_on_disc(500, 0.0005).start();
+TEST_P(Rings, ImpactConservesMomentumAndEnergy) {
+  const auto solids = ball_on_disc(GetParam(), 500, 0.0005).start();
   const BodyLedger start = solids->ledger();
   solids->advance(8e-6);
   const BodyLedger end = solids->ledger();
@@ -288,9 +303,9 @@ TEST(SolidsOfRevolution, ImpactConservesMomentumAndEnergy) {
   for (const Vec3& x : solids->positions()) EXPECT_GT(x[0], 0.0);
 }
 
-TEST(SolidsOfRevolution, ThreadsDoNotChangeADigit) {
+TEST_P(Rings, ThreadsDoNotChangeADigit) {
   const auto run = [&](int threads) {
-    Scene s = ball_on_disc(2000, 0.0005);
+    Scene s = ball_on_disc(GetParam(), 2000, 0.0005);
     s.around.numerics.threads = threads;
     const auto solids = s.start();
     solids->advance(2e-6);
@@ -300,13 +315,13 @@ TEST(SolidsOfRevolution, ThreadsDoNotChangeADigit) {
   omp_set_num_threads(1);
 }
 
-TEST(SolidsOfRevolution, TaylorBarIsThatOfThreeDimensions) {
+TEST_P(Rings, TaylorBarIsThatOfThreeDimensions) {
   const double R = 3.8e-3, L = 12e-3, dx = R / 6, time = 30e-6;
   const materials::Solid iron = *materials::find_solid("armco-iron");
-  Scene s({body(section(0, R, 0, L), iron)}, dx);
+  Scene s({ring(section(0, R, 0, L), iron)}, dx);
   s.solids.bodies[0].velocity = Vec3(0, -221, 0);
   s.solids.planes = {{1, 0.0, true}};
-  Scene space({body(Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = R, .low = 0, .high = L}, iron)}, dx);
+  Scene space({ring(Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = R, .low = 0, .high = L}, iron)}, dx);
   space.around.dimension = 3;
   space.around.axisymmetric = false;
   space.around.symmetry.axis = {true, true, false};
@@ -379,8 +394,6 @@ TEST(SolidsOfRevolution, WhatTheyCannotBeIsRefused) {
   };
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   EXPECT_EQ(message([](Scene&) {}), "");
-  const std::string updated = message([](Scene& s) { s.solids.bodies[0].description = Description::updated_lagrangian; });
-  EXPECT_TRUE(has(updated, "'body'") && has(updated, "description")) << updated;
   EXPECT_TRUE(has(message([](Scene& s) { s.solids.bodies[0].spin = Vec3(0, 5, 0); }), "spin"));
   EXPECT_TRUE(has(message([](Scene& s) { s.solids.bodies[0].velocity = Vec3(0, 0, 5); }), "velocity"));
   EXPECT_TRUE(has(message([](Scene& s) { s.solids.bodies[0].residual_stress = 1e7; }), "residual_stress"));
