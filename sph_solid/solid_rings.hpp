@@ -3,6 +3,9 @@
 //   w_ij = A_j 2 pi |r_i + r_j|/2 grad W_ij
 //   GradientOfRings  L_i = (sum_j (v_j - v_i) w_ij^T) B_i,  B_i = (sum_j (x_j - x_i) w_ij^T)^-1, exact for linear motions
 //   ForcesOfRings    f_i = sum_j A_i (V_i/A_i sigma_i B_i + V_j/A_j sigma_j B_j) w_ij, the derivative of the stresses' power with L
+// A tension repels rings nearer than a spacing, and than the side of their areas: a stretch round the axis draws all of them
+// together, without clumps. No more of a tension counts than the ideal strength of a solid, a tenth of its shear modulus: a law
+// without spall has no bound, and what clumps would take from the heat as they are pushed apart would make more tension.
 // What the hoop adds to both belongs to each ring alone (solid_pairs_rings.cpp). Pairs push each other alike; what they give
 // across the axis is no momentum of a whole ring.
 #pragma once
@@ -69,7 +72,12 @@ struct ForcesOfRings : SolidForces<T> {
 
   UNDEX_INLINE void pair(const State& i, const State& j, Pair<V> pair, Sums& si, Sums& sj) const {
     pair.F *= T(2.0 * 3.14159265358979323846) * i.half_way(pair);
-    Plane::pair(i, j, pair, si, sj);
+    const V near2 = minimum(T(0.5) * (i.volume + j.volume), broadcast(this->spacing2));
+    Plane::push(i, j, pair, near2, pull(i, pair) + pull(j, pair), si, sj);
+  }
+  UNDEX_INLINE static V pull(const State& i, const Pair<V>& pair) {
+    const V strength = T(0.1) * i.rho * i.shear_sound * i.shear_sound;
+    return maximum(minimum(along(i.stress, pair), strength * pair.r2), V{});
   }
 };
 

@@ -148,6 +148,10 @@ struct SolidForces {
   }
 
   UNDEX_INLINE void pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    push(i, j, pair, broadcast(spacing2), maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{}), si, sj);
+  }
+  /// `near2`: the square of the distance below which a tension repels [m^2]; `pulled`: both tensions times r^2 [N].
+  UNDEX_INLINE void push(const State& i, const State& j, const Pair<V>& pair, V near2, V pulled, Sums& si, Sums& sj) const {
     const V x = pair.dx, y = pair.dy, z = pair.dz, F = pair.F;
     const V *a = i.corrected, *b = j.corrected;
     const V tx = (a[0] + b[0]) * x + (a[1] + b[1]) * y + (a[2] + b[2]) * z;
@@ -169,8 +173,8 @@ struct SolidForces {
     const V viscous =
         i.rho * j.rho * mu * (2 * beta * minimum(mu, V{}) - alpha * (i.shear_sound + j.shear_sound)) * reciprocal(density);
     // A share of the tension along the pair, for particles nearer than a spacing alone: undisturbed elasticity stays as it is.
-    const V tension = (maximum(along(i.stress, pair), V{}) + maximum(along(j.stress, pair), V{})) * inverse_r2;
-    const V nearness = minimum(spacing2 * inverse_r2, broadcast(T(4)));
+    const V tension = pulled * inverse_r2;
+    const V nearness = minimum(near2 * inverse_r2, broadcast(T(4)));
     const V repulsive = keep(pair.in_reach, repulsion * tension * maximum(nearness * nearness - 1, V{}));
     const V central = F * (viscous + repulsive);
     add_force(central, pair, i.volume, j.volume, si, sj);

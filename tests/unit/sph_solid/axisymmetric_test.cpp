@@ -316,7 +316,8 @@ TEST_P(Rings, ThreadsDoNotChangeADigit) {
 }
 
 TEST_P(Rings, TaylorBarIsThatOfThreeDimensions) {
-  const double R = 3.8e-3, L = 12e-3, dx = R / 6, time = 30e-6;
+  // To rest; updated bars in contact then ring, each in its own way.
+  const double R = 3.8e-3, L = 12e-3, dx = R / 6, time = updated() ? 20e-6 : 30e-6;
   const materials::Solid iron = *materials::find_solid("armco-iron");
   Scene s({ring(section(0, R, 0, L), iron)}, dx);
   s.solids.bodies[0].velocity = Vec3(0, -221, 0);
@@ -336,11 +337,52 @@ TEST_P(Rings, TaylorBarIsThatOfThreeDimensions) {
   const auto at = [](const Solids& solids, const Vec3& X) { return solids.read(solids.locate(X)).position; };
   const double length = at(*meridian, Vec3(0, L, 0))[1], length3 = at(*quarter, Vec3(0, 0, L))[2];
   const double rim = at(*meridian, Vec3(R, 0, 0))[0], rim3 = at(*quarter, Vec3(R, 0, 0))[0];
-  EXPECT_NEAR(one.balance() / kinetic, 1.0, 5e-3);
+  EXPECT_NEAR(one.balance() / kinetic, 1.0, updated() ? 0.01 : 5e-3);  // of the first order in the step; in space 7e-3
   EXPECT_NEAR(length / length3, 1.0, 0.01);
   EXPECT_NEAR(rim / rim3, 1.0, 0.02);  // the corner's own spacing: 2.5 % at R/5, 0.6 % at R/9.5 of a bar of usual length
   EXPECT_NEAR(one.plastic / (4 * other.plastic), 1.0, 0.01);
   EXPECT_NEAR(one.impulse[1] / (4 * other.impulse[2]), 1.0, 0.01);
+}
+
+TEST(SolidsOfRevolution, RingAloneIsAWireOfConstantVolume) {
+  // It has no strain in the meridian from neighbours, and its section gives way: Young's modulus is 3 G, its frequency sqrt(3 G/rho)/R.
+  const double R = 0.02, dx = 0.001;
+  const auto solids =
+      Scene({body(section(R - 0.5 * dx, R + 0.5 * dx, 0, dx), elastic(), Description::updated_lagrangian)}, dx).start();
+  ASSERT_EQ(solids->particle_count(), 1u);
+  set_motion(*solids, [](const Vec3&) { return Vec3(1, 0, 0); });
+  const BodyLedger start = solids->ledger();
+  const double found = frequency(
+      *solids, [&] { return solids->velocities()[0][0]; }, 4);
+  const double G = young / (2 * (1 + poisson));
+  EXPECT_NEAR(found * solids->positions()[0][0] / std::sqrt(3 * G / density), 1.0, 2e-3);
+  EXPECT_NEAR(solids->field("density")[0], density, 1e-8 * density);  // to the second order in a step's strain
+  EXPECT_NEAR(solids->ledger().balance(), start.balance(), 1e-4 * start.kinetic);
+}
+
+TEST(SolidsOfRevolution, ForcesDoTheWorkOfTheStresses) {
+  // In a uniform stretch, reversed: what bodies lose as kinetic energy they store, with an error of the first order in the step.
+  double error[2];
+  for (int level = 0; level < 2; ++level) {
+    Scene s({body(section(0, 0.02, 0, 0.03), elastic(), Description::updated_lagrangian)}, 0.002);
+    s.around.lattice.jitter = 0.3;
+    s.solids.numerics = {.courant = level == 0 ? 0.2 : 0.1,
+                         .linear_viscosity = 0,
+                         .quadratic_viscosity = 0,
+                         .alpha = 0,
+                         .beta = 0,
+                         .artificial_stress = 0};
+    const auto solids = s.start();
+    set_motion(*solids, [](const Vec3& x) { return Vec3(2000 * x[0], -1000 * x[1], 0); });
+    const BodyLedger start = solids->ledger();
+    solids->advance(3e-6);
+    const BodyLedger end = solids->ledger();
+    EXPECT_LT(end.kinetic, 0.9 * start.kinetic);
+    EXPECT_NEAR(end.momentum[1] / start.momentum[1], 1.0, 1e-13);
+    error[level] = std::abs((end.balance() - start.balance()) / start.kinetic);
+  }
+  EXPECT_LT(error[0], 1e-4);
+  EXPECT_LT(error[1], 0.6 * error[0]);
 }
 
 TEST(SolidsOfRevolution, WetFacesAreSegmentsThatHandBackWhatTheyGet) {
