@@ -48,6 +48,7 @@ struct VelocityGradient {
   static constexpr bool symmetric = false;
   static constexpr Partners partners = Partners::own_body;
   int dimension;
+  double least = 0.015;  ///< det B^-1, below which B is not trusted; a corner of a lattice in space has 0.02
 
   explicit VelocityGradient(const PairInput& in) : dimension(in.dimension) {}
 
@@ -73,9 +74,9 @@ struct VelocityGradient {
   }
   UNDEX_INLINE void wall(const State&, const Wall&, const Pair<V>&, Sums&, WallSums<V>&) const {}
 
-  /// A corner of a lattice has 0.02; below, the correction fades out, before the inverse of next to nothing can do harm.
-  UNDEX_INLINE static double trust_in(double determinant) {
-    constexpr double least = 0.015;
+  /// Where neighbours are fewer than a lattice's corner has, the correction fades out, before the inverse of next to nothing can
+  /// do harm.
+  UNDEX_INLINE double trust_in(double determinant) const {
     const double part = determinant / least;
     return part < 1.0 ? part > 0.0 ? part * part : 0.0 : 1.0;
   }
