@@ -2,7 +2,8 @@
 // hold volumes, and a pair's ring is the one half-way between its two, the image of j across the axis having r_j < 0:
 //   w_ij = A_j 2 pi |r_i + r_j|/2 grad W_ij
 //   GradientOfRings  L_i = (sum_j (v_j - v_i) w_ij^T) B_i,  B_i = (sum_j (x_j - x_i) w_ij^T)^-1, exact for linear motions
-//   ForcesOfRings    f_i = sum_j A_i (V_i/A_i sigma_i B_i + V_j/A_j sigma_j B_j) w_ij, the derivative of the stresses' power with L
+//   ForcesOfRings    f_i = sum_j A_i (V_i/A_i sigma_i B_i + V_j/A_j sigma_j B_j) w_ij, the derivative of the stresses' power
+//                    with L
 // A tension repels rings nearer than a spacing, and than the side of their areas: a stretch round the axis draws all of them
 // together, without clumps. No more of a tension counts than the ideal strength of a solid, a tenth of its shear modulus: a law
 // without spall has no bound, and what clumps would take from the heat as they are pushed apart would make more tension.

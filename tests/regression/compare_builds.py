@@ -21,6 +21,7 @@ COARSE_BAR = {"resolution.spacing": 0.0008, "end_time": 20e-6}
 IMPACT = {"resolution.spacing": 0.002, "end_time": 2e-6}
 # Shipped scenes that no regression test runs, by their path below cases/: what makes them cheap. Hard cases are cheap as they are.
 FURTHER = {
+    "al_sphere_impact/axisymmetric.toml": IMPACT,
     "al_sphere_impact/experiment.toml": IMPACT,
     "al_sphere_impact/full.toml": IMPACT,
     "al_tube_fem/experiment.toml": {"resolution.spacing": 0.002, "end_time": 60e-6},

@@ -99,6 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Cut{"plane_wave", "taylor_plate", {{spacing, "0.002"}}, 12},
                     Cut{"total_lagrangian", "taylor_bar_sph", {{spacing, "0.0008"}}, 60},
                     Cut{"updated_lagrangian", "taylor_bar_sph/updated.toml", {{spacing, "0.0008"}}, 60},
+                    Cut{"updated_rings", "al_sphere_impact/axisymmetric.toml", {{spacing, "0.002"}}, 60},
                     Cut{"contact", "colliding_rings", {{spacing, "0.002"}}, 200},
                     Cut{"finite_elements", "taylor_bar_fem", {}, 60},
                     Cut{"failure", "al_sphere_impact", {{spacing, "0.002"}}, 60}),

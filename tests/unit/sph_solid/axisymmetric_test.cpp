@@ -345,7 +345,7 @@ TEST_P(Rings, TaylorBarIsThatOfThreeDimensions) {
 }
 
 TEST(SolidsOfRevolution, RingAloneIsAWireOfConstantVolume) {
-  // It has no strain in the meridian from neighbours, and its section gives way: Young's modulus is 3 G, its frequency sqrt(3 G/rho)/R.
+  // It has no strain in the meridian from neighbours, and its section gives way: Young's modulus is 3 G.
   const double R = 0.02, dx = 0.001;
   const auto solids =
       Scene({body(section(R - 0.5 * dx, R + 0.5 * dx, 0, dx), elastic(), Description::updated_lagrangian)}, dx).start();
