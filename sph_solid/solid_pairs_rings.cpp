@@ -1,8 +1,8 @@
 // Rings of bodies in an updated Lagrangian description: their lengths, and what the hoop adds to strains and forces.
 //   L_tt = o v_r/r + (1 - o) L_rr,   o = s^4/(1 + s^4),  s = r/(width dx)
-// is exact where v_r = a r. Beside the axis, where v_r/r is dv_r/dr and half-way rings leave the first column of a lattice a force
-// under uniform pressure, it is taken from the neighbours; the width is such that this column stays at rest. The next one has
-// 1 - o near 1e-3. A ring with no neighbours has no strain in the meridian. It is a wire then, whose section gives way to its
+// is exact where v_r = a r. Beside the axis, where v_r/r is dv_r/dr and half-way rings leave the first column of a lattice a
+// force under uniform pressure, it is taken from the neighbours; the width is such that this column stays at rest. The next one
+// has 1 - o near 1e-3. A ring with no neighbours has no strain in the meridian. It is a wire then, whose section gives way to its
 // stretch: L_rr and L_zz get -L_tt/2 each, by the share that the neighbours do not say. Forces follow as the derivative of the
 // power of the stresses.
 #include <Eigen/LU>
