@@ -631,9 +631,8 @@ void Lagrangian1D::coarsen(const std::function<double(double place)>& width, int
     if (!solids_.deviator.empty()) merge_solids(i, first[k + 1] - 1, k);
     if (first[k + 1] == i + 2) {
       const double other = cell_mass_[i + 1];
-      energy += other * e_[i + 1];
-      energy += options_.front_width ? drop_node(i, mass, other)
-                                     : add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
+      if (options_.front_width) energy += other * e_[i + 1] + drop_node(i, mass, other);
+      else energy += other * e_[i + 1] + add_to_node(i, 0.5 * other, u_[i + 1]) + add_to_node(i + 2, 0.5 * mass, u_[i + 1]);
       mass += other;
       volume += start_volume_[i + 1];
     }

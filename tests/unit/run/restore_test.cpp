@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                          {"structure.cells", "{through = 1, around = 48, along = 36}"}}},
                     Cut{"one_system", "al_tube_sph", {{spacing, "0.005"}, {"solids.tube.spacing", "0.003175"}}},
                     Cut{"wet_solids", "al_tube_sph/surface.toml", {{spacing, "0.005"}, {"solids.tube.spacing", "0.003175"}}},
-                    Cut{"on_a_radius", "free_field/radial.toml", {{spacing, "1e-4"}}, 600},
+                    Cut{"on_a_radius", "free_field/radial.toml", {{spacing, "1e-4"}}, 300},
                     Cut{"plane_wave", "taylor_plate", {{spacing, "0.002"}}, 12},
                     Cut{"total_lagrangian", "taylor_bar_sph", {{spacing, "0.0008"}}, 60},
                     Cut{"updated_lagrangian", "taylor_bar_sph/updated.toml", {{spacing, "0.0008"}}, 60},

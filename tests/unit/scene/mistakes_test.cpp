@@ -92,7 +92,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"field", two_gases + "[output]\nparticle_fields = [\"densty\"]\n",
        "20:19: output.particle_fields: unknown 'densty'; did you mean 'density'?\n"},
       {"shape type", with(coupled_tube, "type = \"sphere\"", "type = \"shpere\""),
-       "11:17: bodies.charge.shape.type must be one of box, slab, sphere, cylinder, tube, not the text \"shpere\"; did you "
+       "11:17: bodies.charge.shape.type must be one of box, slab, sphere, cylinder, tube, cone, not the text \"shpere\"; did you "
        "mean 'sphere'?\n"},
       {"upside down", with(two_gases, "low = 0, high = 0.5", "low = 0.5, high = 0.5"),
        "9:42: bodies.left.shape.high: along x, high = 0.5 must be greater than low = 0.5\n"},

@@ -155,7 +155,10 @@ TEST(Revolution, MistakesOfConesAreNamed) {
 
 TEST(Revolution, SlenderTipsAreWarnedOf) {
   const auto warnings = [](const char* radius) {
-    return read_text(funnel, {{"walls.funnel.shape.low_radius", radius}, {"bodies.water.shape.low_radius", radius}}).warnings;
+    return read_text(funnel, {{"walls.funnel.shape.low_radius", radius},
+                              {"bodies.water.shape.low_radius", radius},
+                              {"probes.on_the_side.point", "[0.116, 0.01, 0.2]"}})
+        .warnings;
   };
   EXPECT_TRUE(warnings("0.003").empty());
   ASSERT_EQ(warnings("0.0029").size(), 1u);

@@ -60,6 +60,32 @@ level = [0, 1.5]
 )";
 
 /// Scenes that between them use every kind of table, with no value at its default.
+const std::string charge_in_a_funnel = R"(end_time = 1e-4
+[resolution]
+spacing = 0.001
+[start]
+kind = "run"
+from = "charge.toml"
+time = 1e-5
+[[bodies]]
+name = "charge"
+shape = {type = "sphere", radius = 0.005}
+material = "petn"
+[[bodies]]
+name = "water"
+shape = {type = "cone", axis = "z", low_radius = 0.02, high_radius = 0.03, low = -0.02, high = 0.04}
+subtract = ["charge"]
+material = "water-tait"
+[[probes]]
+name = "near"
+point = [0.01, 0, 0]
+[comparison]
+kind = "similitude"
+explosive = "tnt"
+charge_mass = 0.001
+impulse = [6e3, 0.9]
+energy_flux = [9e4, 2]
+)";
 const std::vector<std::string> rich{R"(title = "all \"sorts\" of \\ things\t"
 name = "rich"
 end_time = 2e-5
@@ -285,6 +311,7 @@ probe = "plate"
                                     bathed_disc + "[coupling]\nsolids = \"surface\"\n",
                                     profile,
                                     imploding,
+                                    charge_in_a_funnel,
                                     pool};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
@@ -343,7 +370,7 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.fluid.numerics.fixed_step, 1e-8);
   EXPECT_EQ(scene.fluid.numerics.h_high, 3);
   const sph::Body& charge = scene.fluid.bodies[0];
-  EXPECT_EQ(charge.shape.removed.size(), 3u);
+  EXPECT_EQ(charge.shape.removed.size(), 4u);
   EXPECT_EQ(std::get<TubeShape>(charge.shape.removed[1]).outer, 0.002);
   EXPECT_EQ(charge.spacing, 0.002);
   EXPECT_EQ(charge.velocity, Vec3(1, 0, 3));
