@@ -12,14 +12,8 @@
 namespace undex::run {
 namespace {
 
+constexpr sph::KernelName kernel = sph::KernelName::wendland_c2;
 constexpr double support = 2.0;  // of the kernel, in h
-
-/// Wendland's C2 kernel [1/m^d].
-double kernel(double r, double h, int dimension) {
-  const double pi = std::numbers::pi, q = r / h, a = 1.0 - 0.5 * q;
-  const double norm = dimension == 1 ? 3.0 / 4.0 : dimension == 2 ? 7.0 / (4.0 * pi) : 21.0 / (16.0 * pi);
-  return q < support ? norm / std::pow(h, dimension) * a * a * a * a * (2.0 * q + 1.0) : 0.0;
-}
 
 constexpr double spacings = 1.2;       // h over the particles' spacing
 constexpr double of_width = 0.559017;  // h over the width of a cell of the same variance: 4 h^2/15 = width^2/12
@@ -213,7 +207,7 @@ ParticleState::Owner ParticleState::owner_at(const Vec3& x) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     double share = 0;
     bodies_[b].around(place.x, 0.0, [&](const Particle& p, const Vec3& offset, double h) {
-      share += p.volume * kernel(offset.norm(), h, dimension_);
+      share += p.volume * sph::kernel_value(kernel, offset.norm(), h, dimension_);
       owner.still = owner.still && !p.moved;
     });
     all += share;
@@ -231,7 +225,7 @@ sph::StartState ParticleState::state(std::size_t body, const Vec3& x, double wid
   LinearFit fit(dimension_);
   std::vector<const Particle*> near;
   bodies_[body].around(place.x, width, [&](const Particle& p, const Vec3& offset, double h) {
-    fit.add(p.volume * kernel(offset.norm(), h, dimension_), offset / h);
+    fit.add(p.volume * sph::kernel_value(kernel, offset.norm(), h, dimension_), offset / h);
     near.push_back(&p);
   });
   if (fit.empty()) return at_rest;

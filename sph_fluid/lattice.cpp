@@ -22,6 +22,10 @@ double lattice_factor(KernelName kernel, double eta, int dimension) {
   return with_kernel(kernel, [&](auto k) { return lattice_factor<decltype(k)>(eta, dimension); });
 }
 
+double kernel_value(KernelName kernel, double r, double h, int dimension) {
+  return with_kernel(kernel, [&](auto k) { return value<decltype(k)>(r, h, dimension); });
+}
+
 double kernel_support(KernelName kernel) {
   return with_kernel(kernel, [](auto k) { return k.support; });
 }

@@ -25,6 +25,7 @@ std::vector<BodyParticles> fill_bodies(const Settings& settings);
 double smoothing_length(const Settings& settings, double spacing);
 double kernel_support(KernelName kernel);
 /// See kernels.hpp.
+double kernel_value(KernelName kernel, double r, double h, int dimension);
 double lattice_factor(KernelName kernel, double eta, int dimension);
 
 }  // namespace undex::sph
