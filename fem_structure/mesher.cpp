@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/gmsh_file.hpp"
 #include "fem_structure/deal_mesh.hpp"
+#include "fem_structure/structure.hpp"
 
 namespace undex::fem {
 namespace {
@@ -84,6 +85,8 @@ std::unique_ptr<DealMesh> build(const Settings& settings, const std::string& who
 }
 
 }  // namespace
+
+void load_meshes() { deal_mesh(); }
 
 Mesher::Mesher(const Settings& settings) {
   const std::string who = "structure '" + settings.name + "'";

