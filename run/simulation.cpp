@@ -139,6 +139,7 @@ void Simulation::build(const scene::Scene& scene) {
       bodies_.push_back(std::move(built));
     });
   if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
+  if (findings.empty() && fluid_) fluid_->settle();
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 

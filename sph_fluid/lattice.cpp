@@ -57,9 +57,9 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
   double sum = 0;
   for (const double cell_volume : out.volume) sum += cell_volume;
   const Bounds kept = kept_window(settings, box);
-  const double scale =
+  out.scale =
       (settings.axisymmetric ? volume_of_revolution(shape, kept) : volume(shape, kept, settings.dimension)) / sum;
-  for (double& cell_volume : out.volume) cell_volume *= scale;
+  for (double& cell_volume : out.volume) cell_volume *= out.scale;
   return out;
 }
 
@@ -70,7 +70,7 @@ std::vector<BodyParticles> fill_bodies(const Settings& settings) {
     const std::string who = "body '" + body.name + "'";
     if (body.start && !body.start->laid.position.empty()) {
       const LaidParticles& laid = body.start->laid;
-      BodyParticles& out = result.emplace_back(BodyParticles{laid.position, laid.mass});
+      BodyParticles& out = result.emplace_back(BodyParticles{.position = laid.position, .volume = laid.mass});
       for (std::size_t k = 0; k < laid.density.size(); ++k) out.volume[k] /= laid.density[k];
     } else if (body.start && body.start->covers)
       result.push_back(points_inside(grid, settings, body.start->box, body.start->covers, who));

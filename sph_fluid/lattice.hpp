@@ -12,6 +12,7 @@ namespace undex::sph {
 struct BodyParticles {
   std::vector<Vec3> position;  ///< [m]
   std::vector<double> volume;  ///< [m^d]; of a shape their sum is the exact volume of its kept part
+  double scale = 1.0;          ///< of a shape: these volumes over those of the lattice's cells
 };
 
 /// The points of a grid inside a shape, on the kept side of the symmetry planes. Throws std::invalid_argument, as `who`, where

@@ -81,6 +81,7 @@ struct Lattice {
   Vec3 rotation = Vec3::Zero();  ///< of a Cartesian lattice about `origin`: axis times angle [deg]; not with `fit`
   /// Jitter of the start as a share of dx, from a fixed seed: 0 is a perfect lattice.
   double jitter = 0;
+  bool settle = true;  ///< are particles moved until uniform pressure leaves them at rest (water/settle.hpp)?
 };
 template <class Visit>
 void describe(Lattice& lattice, Visit&& visit) {
@@ -109,6 +110,11 @@ void describe(Lattice& lattice, Visit&& visit) {
   visit(lattice.jitter, {.name = "jitter",
                          .range = Range::between(0, 0.5),
                          .meaning = "random displacement of the start as a share of dx, always the same one"});
+  visit(lattice.settle,
+        {.name = "settle",
+         .meaning = "particles are moved before the start until uniform pressure leaves them at rest: rings "
+                    "beside their axis, round and unfitted walls, jitter. A lattice that is at rest stays as it is: "
+                    "[equations](equations.md#settled-starts)"});
 }
 
 /// State of one particle at the start.

@@ -1,6 +1,7 @@
 // Sorting particles into cells: the order in which they lie in memory, and where each cell starts.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,5 +28,21 @@ class CellList {
   std::uint32_t first_ = 0;
   std::vector<std::uint32_t> start_, key_, order_, histogram_;
 };
+
+/// Calls visit(i) for all first <= i < last, in the cells' order, in the cells that the box from low to high touches.
+template <class Visit>
+void for_each_in_cells(const CellGrid& grid, const double* low, const double* high, Visit visit) {
+  int first[3], last[3];
+  for (int a = 0; a < 3; ++a) {
+    if (low[a] > grid.bound_high[a] || high[a] < grid.bound_low[a]) return;
+    first[a] = int(std::clamp((low[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
+    last[a] = int(std::clamp((high[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
+  }
+  for (int iz = first[2]; iz <= last[2]; ++iz)
+    for (int iy = first[1]; iy <= last[1]; ++iy) {
+      const std::uint32_t* row = grid.start + (std::size_t(iz) * grid.count[1] + iy) * grid.count[0];
+      for (std::uint32_t i = row[first[0]]; i < row[last[0] + 1]; ++i) visit(i);
+    }
+}
 
 }  // namespace undex::sph

@@ -12,22 +12,6 @@
 namespace undex::sph {
 namespace {
 
-/// Calls visit(particle) for all in the cells that a box touches.
-template <class Visit>
-void for_each_in_cells(const CellGrid& grid, const Bounds& box, Visit visit) {
-  int first[3], last[3];
-  for (int a = 0; a < 3; ++a) {
-    if (box.low[a] > grid.bound_high[a] || box.high[a] < grid.bound_low[a]) return;
-    first[a] = int(std::clamp((box.low[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
-    last[a] = int(std::clamp((box.high[a] - grid.low[a]) / grid.size[a], 0.0, grid.count[a] - 1.0));
-  }
-  for (int iz = first[2]; iz <= last[2]; ++iz)
-    for (int iy = first[1]; iy <= last[1]; ++iy) {
-      const std::uint32_t* row = grid.start + (std::size_t(iz) * grid.count[1] + iy) * grid.count[0];
-      for (std::uint32_t i = row[first[0]]; i < row[last[0] + 1]; ++i) visit(i);
-    }
-}
-
 /// Feet on one face.
 class FaceSearch {
  public:
@@ -47,7 +31,7 @@ class FaceSearch {
     }
     // What normals that lean apart make of the face's sides at the end of its reach, beside its own curvature.
     const double margin = 0.1 + lean_ * range.depth / std::sqrt(std::min(uu_, vv_));
-    for_each_in_cells(range.cells->view(), box, [&](std::uint32_t i) {
+    for_each_in_cells(range.cells->view(), box.low.data(), box.high.data(), [&](std::uint32_t i) {
       const Vec3 x(particles.x[i], particles.y[i], particles.z[i]);
       PatchPoint at = guess(x);
       if (std::abs(at.u - 0.5) > 0.5 + margin || std::abs(at.v - 0.5) > 0.5 + margin) return;

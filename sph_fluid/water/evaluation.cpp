@@ -67,7 +67,7 @@ void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
   set.particles.turn_rates();
   pack_walls(set);
   find_images(set);
-  pairs(set);
+  pairs(set, ahead.at_rest);
   wall_forces(set);
   finish_rates(set);
 }
@@ -258,7 +258,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   return in;
 }
 
-void Evaluation::pairs(ParticleSet& set) {
+void Evaluation::pairs(ParticleSet& set, bool at_rest) {
   const PairInput in = pair_input(set);
   const auto timer = timers_.measure("pairs");
   set.interactions.resize(set.blocks.block_count());
@@ -267,7 +267,9 @@ void Evaluation::pairs(ParticleSet& set) {
                        .wall = lining_.forces(),
                        .images = set.images.sums(),
                        .interactions = set.interactions.data()};
-  if (loops_.gradients) {
+  if (at_rest && loops_.second == SecondRow::gradient && !rings_) {
+    std::fill(set.particles.gradient.begin(), set.particles.gradient.end(), GradientRow{{}, {}, 1.0f});
+  } else if (loops_.gradients) {
     loops_.gradients(in, out);
     set.images.reflect_gradients(set.particles);
   }

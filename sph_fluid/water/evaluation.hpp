@@ -20,6 +20,7 @@ struct Ahead {
   double time = 0;  ///< of the predicted state [s]
   double half = 0, bend = 0;
   double slow_half = 0, slow_bend = 0;
+  bool at_rest = false;  ///< all at rest under one pressure: gradients vanish
 };
 
 class Evaluation {
@@ -50,7 +51,7 @@ class Evaluation {
   void evaluate_group(ParticleSet& set, const Law& law, Group& group, const Ahead& ahead);
   void find_images(ParticleSet& set);
   PairInput pair_input(ParticleSet& set);
-  void pairs(ParticleSet& set);
+  void pairs(ParticleSet& set, bool at_rest);
   void count_fillings(const ParticleSet& set);
   void wall_forces(ParticleSet& set);
   /// Rates per mass from the sums per volume, and gravity. Where there is an energy field, its rate is the viscous heat plus the

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sph_fluid/lattice.hpp"
 #include "sph_fluid/water/local_steps.hpp"
 #include "sph_fluid/water/water.hpp"
 
@@ -18,7 +19,13 @@ struct Fluid::Implementation : Water {
   explicit Implementation(const Settings& settings);
 
   // Set-up: start.cpp.
-  void fill();
+  /// All but the walls as at the start, with particles in these places.
+  void begin(std::vector<BodyParticles> bodies);
+  void settle();
+  void settle_in_place();
+  /// Areas fill the meridian as particles fill a plane: it is settled as one, and the rings' volumes follow, but for their sum.
+  void settle_meridian();
+  void fill(std::vector<BodyParticles> bodies);
   /// The particles become those that are laid already.
   void take(const LaidParticles& laid, const Group& group);
   /// Replaces a body's uniform start; mass, kinetic energy and (with an energy field) internal energy become exact.

@@ -23,6 +23,12 @@ void Signals::watch(const Settings& settings, ParticleSet& set) {
     if (leaves_out(place_of(p, i), set.reach)) p.rate[i] = SumRow{};
 }
 
+void Signals::expect_within(const Bounds& box) {
+  everywhere_ = false;
+  disturbed_ = box;
+  share_ = 1.0;
+}
+
 void Signals::find(const ParticleSet& set) {
   if (everywhere_) return;
   for (const Group& group : set.groups) {

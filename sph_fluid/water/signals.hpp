@@ -12,6 +12,8 @@ class Signals {
   void watch(const Settings& settings, ParticleSet& set);
   /// From now on all are worked on.
   void expect_everywhere() { everywhere_ = true; }
+  /// Or all within reach of a box.
+  void expect_within(const Bounds& box);
   /// Extends the box of the disturbed by those whose speed or density has left rest by more than the share of the sound speed (or
   /// of the density) that counts as a signal.
   void find(const ParticleSet& set);

@@ -1,9 +1,10 @@
 // Set-up of a fluid: particles in their places, walls, the first evaluation.
 #include <cmath>
+#include <numeric>
 
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/water/fluid_implementation.hpp"
-
+#include "sph_fluid/water/settle.hpp"
 namespace undex::sph {
 namespace {
 
@@ -14,18 +15,59 @@ bool same_material(const materials::Fluid& a, const materials::Fluid& b) {
 
 }  // namespace
 
-Fluid::Implementation::Implementation(const Settings& given) : Water(given), local_steps(*this) {
-  fill();
+Fluid::Implementation::Implementation(const Settings& given) : Water(given), local_steps(*this) { begin(fill_bodies(settings)); }
+
+void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
+  all = ParticleSet{};
+  exchange = {.dissipated = settings.heat_before};
+  fill(std::move(bodies));
   lifted = fall();
   evaluation.pack_walls(all);
   all.particles.make_room(evaluation.loops().second, settings.numerics.alpha, settings.numerics.integrator == Integrator::ssp_rk3,
                           settings.axisymmetric);
+  if (!walls.empty()) return expect_walls();
   evaluate(all, {.time = clock.time});
+  evaluation.signals() = Signals{};
   evaluation.signals().watch(settings, all);
 }
 
-void Fluid::Implementation::fill() {
+void Fluid::Implementation::settle() {
+  if (settings.lattice.settle && !settings.bodies.empty()) {
+    if (settings.axisymmetric) settle_meridian();
+    else settle_in_place();
+  }
+  for (Body& body : settings.bodies) body.start.reset();  // it may hold much
+}
+
+void Fluid::Implementation::settle_in_place() {
+  const std::vector<Body> given = settings.bodies;
+  const Vec3 gravity = settings.gravity;
   std::vector<BodyParticles> bodies = fill_bodies(settings);
+  sph::settle(*this, bodies);
+  std::copy(given.begin(), given.end(), settings.bodies.begin());  // groups point to them
+  settings.gravity = gravity;
+  begin(std::move(bodies));
+}
+
+void Fluid::Implementation::settle_meridian() {
+  Settings flat = settings;
+  flat.axisymmetric = false;
+  std::vector<BodyParticles> sections = fill_bodies(flat), bodies = fill_bodies(settings);
+  Water plane(flat);
+  plane.walls = walls;
+  if (!sph::settle(plane, sections)) return;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::vector<double>& volume = bodies[b].volume;
+    const double before = std::accumulate(volume.begin(), volume.end(), 0.0);
+    for (std::size_t k = 0; k < volume.size(); ++k) volume[k] *= sections[b].position[k][0] / bodies[b].position[k][0];
+    const double scale = before / std::accumulate(volume.begin(), volume.end(), 0.0);
+    for (double& one : volume) one *= scale;
+    bodies[b].position = std::move(sections[b].position);
+  }
+  begin(std::move(bodies));
+}
+
+void Fluid::Implementation::fill(std::vector<BodyParticles> bodies) {
   std::size_t n = 0;
   for (const BodyParticles& body : bodies) n += body.position.size();
   bool has_energy = false;
@@ -70,7 +112,6 @@ void Fluid::Implementation::fill() {
     else if (body.start) lay_on(*body.start, group);
     all.groups.push_back(std::move(group));
   }
-  for (Body& body : settings.bodies) body.start.reset();  // it may hold much
 }
 
 void Fluid::Implementation::take(const LaidParticles& laid, const Group& group) {
