@@ -57,8 +57,7 @@ BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shap
   double sum = 0;
   for (const double cell_volume : out.volume) sum += cell_volume;
   const Bounds kept = kept_window(settings, box);
-  out.scale =
-      (settings.axisymmetric ? volume_of_revolution(shape, kept) : volume(shape, kept, settings.dimension)) / sum;
+  out.scale = (settings.axisymmetric ? volume_of_revolution(shape, kept) : volume(shape, kept, settings.dimension)) / sum;
   for (double& cell_volume : out.volume) cell_volume *= out.scale;
   return out;
 }

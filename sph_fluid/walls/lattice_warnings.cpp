@@ -75,6 +75,7 @@ void warn_of_slip_walls(const Settings& settings, std::vector<std::string>& warn
 }  // namespace
 
 std::vector<std::string> lattice_warnings(const Settings& settings) {
+  if (settings.lattice.settle) return {};
   std::vector<std::string> warnings;
   warn_of_planes(settings, warnings);
   warn_of_slip_walls(settings, warnings);

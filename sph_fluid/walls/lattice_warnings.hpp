@@ -9,6 +9,7 @@
 namespace undex::sph {
 
 /// Symmetry planes and slip walls that lie between the lattice's cell faces, and what to do about it; one sentence each.
+/// None where particles settle (water/settle.hpp).
 std::vector<std::string> lattice_warnings(const Settings& settings);
 
 }  // namespace undex::sph

@@ -2,8 +2,8 @@
 // rho is accelerated by
 //   a_i = -(2 p/rho) g_i,   g_i = sum_j V_j grad W_ij,
 // images, dummies and whatever the scheme corrects included. That is -2 p/(rho V_i) times the gradient of sum V_i V_j W_ij/2, so
-// descent along -g ends where all g vanish (Litvinov, Hu, Adams 2015, J. Comput. Phys. 301, 394; for boundaries Zhu, Zhang, Hu 2021,
-// J. Comput. Phys. 438, 110335). Here g is what the scheme itself computes. Volumes stay as they are.
+// descent along -g ends where all g vanish (Litvinov, Hu, Adams 2015, J. Comput. Phys. 301, 394). Here g is what the scheme itself
+// computes. Volumes stay as they are.
 #pragma once
 
 #include <vector>

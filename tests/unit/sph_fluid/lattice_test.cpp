@@ -156,6 +156,7 @@ TEST(Lattice, FitHasACellFaceOnASymmetryPlane) {
 
 TEST(Lattice, WarnsOfAPlaneBetweenItsCellFaces) {
   Settings settings = scene(2, 0.1, box(Vec3(0, 0, 0), Vec3(1, 0.5, 0)));
+  settings.lattice.settle = false;
   settings.symmetry.axis = {true, false, false};
   EXPECT_TRUE(lattice_warnings(settings).empty());
   settings.lattice.origin = Vec3(0.3, 0.05, 0);
@@ -176,6 +177,7 @@ TEST(Lattice, WarnsOfAPlaneBetweenItsCellFaces) {
 
 TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
   Settings settings = scene(2, 0.1, box(Vec3(0, 0, 0), Vec3(1, 0.55, 0)));
+  settings.lattice.settle = false;
   settings.walls = {box_wall(Vec3(0, 0, 0), Vec3(1, 0.55, 0))};
   ASSERT_EQ(lattice_warnings(settings).size(), 1u);
   EXPECT_NE(lattice_warnings(settings)[0].find("slip wall y = 0.55 m (the nearest is 0.5 spacings off)"), std::string::npos)
@@ -187,6 +189,7 @@ TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
   EXPECT_TRUE(lattice_warnings(settings).empty());
 
   settings = rings(0.05);
+  settings.lattice.settle = false;
   Wall wall;
   wall.name = "side";
   wall.container = Cylinder{.axis = 2, .center = Vec3::Zero(), .radius = 0.4445, .low = -0.2, .high = 0.2};
@@ -197,6 +200,8 @@ TEST(Lattice, WarnsOfASlipWallBetweenItsCellFaces) {
   ASSERT_EQ(lattice_warnings(settings).size(), 1u);
   EXPECT_NE(lattice_warnings(settings)[0].find("round slip wall of radius 0.4445 m"), std::string::npos)
       << lattice_warnings(settings)[0];
+  settings.lattice.settle = true;
+  EXPECT_TRUE(lattice_warnings(settings).empty());
 }
 
 /// A ball does not see how its lattice lies: its particles, and all that becomes of them, are those of the lattice as it is,
