@@ -41,6 +41,7 @@ class Evaluation {
   const WallLining& lining() const { return lining_; }
   Signals& signals() { return signals_; }
   long long interactions() const { return interactions_; }
+  void count_anew() { interactions_ = 0; }
   void visit_state(StateVisitor& state);
   std::size_t memory_bytes() const { return lining_.memory_bytes(); }
 

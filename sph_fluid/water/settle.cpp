@@ -249,8 +249,8 @@ class Settler {
     return all;
   }
 
-  /// A gap that an unfitted lattice leaves is at most a spacing wide before the wall, and the images stand behind it: a ball of 1.75
-  /// spacings has no room there.
+  /// A gap that an unfitted lattice leaves is at most a spacing wide before the wall, and the images stand behind it: a ball of
+  /// 1.75 spacings has no room there.
   bool is_at_surface(std::uint32_t i, const Neighbours& all) const {
     const double spacing = group_of(i).spacing;
     return !all.any(kept(place_of(set_.particles, i) + 2.0 * spacing * force(i).normalized()), 1.75 * spacing);

@@ -2,8 +2,8 @@
 // rho is accelerated by
 //   a_i = -(2 p/rho) g_i,   g_i = sum_j V_j grad W_ij,
 // images, dummies and whatever the scheme corrects included. That is -2 p/(rho V_i) times the gradient of sum V_i V_j W_ij/2, so
-// descent along -g ends where all g vanish (Litvinov, Hu, Adams 2015, J. Comput. Phys. 301, 394). Here g is what the scheme itself
-// computes. Volumes stay as they are.
+// descent along -g ends where all g vanish (Litvinov, Hu, Adams 2015, J. Comput. Phys. 301, 394). Here g is what the scheme
+// itself computes. Volumes stay as they are.
 #pragma once
 
 #include <vector>
@@ -16,9 +16,9 @@ namespace undex::sph {
 /// |g| h that counts as rest: pressures are uneven by about this share of it.
 inline constexpr double rest_residual = 1e-2;
 
-/// Moves the particles of `bodies` where |g| h is larger, and those within reach of them. Left alone are particles within reach of a
-/// free surface, of bodies with another spacing and of bodies that a start has laid. `water` has the scene's settings and all walls;
-/// its particles are put in the place of its own, and it is of no use afterwards. Returns false where all are at rest as they are.
+/// Moves the particles of `bodies` where |g| h is larger, and those within reach of them. Left alone are particles within reach
+/// of a free surface, of bodies with another spacing and of bodies that a start has laid. `water` has the scene's settings and
+/// all walls; its particles become others, and it is of no use afterwards. Returns false where all are at rest as they are.
 bool settle(Water& water, std::vector<BodyParticles>& bodies);
 
 }  // namespace undex::sph

@@ -9,6 +9,7 @@ void Signals::watch(const Settings& settings, ParticleSet& set) {
   rings_ = settings.axisymmetric;
   everywhere_ = share_ <= 0.0 || !settings.gravity.isZero();
   for (const Body& body : settings.bodies) everywhere_ = everywhere_ || body.burn.has_value();
+  disturbed_ = Bounds{};
   if (everywhere_) return;
   Particles& p = set.particles;
   for (std::uint32_t i = 0; i < p.size(); ++i) {

@@ -20,15 +20,16 @@ Fluid::Implementation::Implementation(const Settings& given) : Water(given), loc
 void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
   all = ParticleSet{};
   exchange = {.dissipated = settings.heat_before};
+  clamps = {};
+  evaluation.count_anew();
   fill(std::move(bodies));
   lifted = fall();
   evaluation.pack_walls(all);
   all.particles.make_room(evaluation.loops().second, settings.numerics.alpha, settings.numerics.integrator == Integrator::ssp_rk3,
                           settings.axisymmetric);
-  if (!walls.empty()) return expect_walls();
+  evaluation.signals().expect_everywhere();
   evaluate(all, {.time = clock.time});
-  evaluation.signals() = Signals{};
-  evaluation.signals().watch(settings, all);
+  if (walls.empty()) evaluation.signals().watch(settings, all);
 }
 
 void Fluid::Implementation::settle() {
