@@ -72,8 +72,8 @@ class Fluid {
   const std::vector<Vec3>& wall_force(MirrorIndex index) const;
   const std::vector<Vec3>& wall_force(LinedIndex index) const;
 
-  /// To be called once all walls are there and before the first step: particles that uniform pressure would set in motion are moved
-  /// to where it does not (settle.hpp), unless the settings say otherwise.
+  /// To be called once all walls are there and before the first step: particles that uniform pressure would set in motion are
+  /// moved to where it does not (settle.hpp), unless the settings say otherwise.
   void settle();
 
   /// Valid from construction on: rates are evaluated at once.

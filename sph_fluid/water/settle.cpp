@@ -104,7 +104,7 @@ class Settler {
       group.spacing = body.spacing.value_or(settings.lattice.spacing);
       group.h0 = group.h_max = smoothing_length(settings, group.spacing);
       group.rest_density = density_;
-      // Where bodies drive each other apart anyway their surfaces are left as the lattice has them, with the volumes of its cells.
+      // Where bodies drive each other apart anyway their surfaces stay as the lattice has them, with the volumes of its cells.
       const double scale = even ? 1.0 : bodies_[b].scale;
       for (std::size_t k = 0; k < bodies_[b].position.size(); ++k, ++at) {
         const Vec3& x = bodies_[b].position[k];
