@@ -96,6 +96,7 @@ Grid scene_grid(const Settings& settings) {
       throw std::invalid_argument("resolution.lattice = \"rings\" needs three dimensions, or two with the axis along z");
     grid.rings = true;
     grid.ring_width = radius / std::max(1.0, std::round(radius / lattice.spacing));
+    if (lattice.settle) grid.section = std::make_shared<RingSection>(settings, radius, grid.ring_width, grid.step[grid.axis]);
   }
   return grid;
 }
@@ -161,8 +162,10 @@ void walk(const Grid& grid, const Settings& settings, Bounds box, const Visit& v
       for (long q = 0; q < around; ++q) {
         const double angle = 2.0 * std::numbers::pi * (q + 0.5) / around;
         Vec3 x = Vec3::Zero();
-        x[u] = grid.origin[u] + r * std::cos(angle);
-        x[v] = grid.origin[v] + r * std::sin(angle);
+        const Eigen::Vector2d in_section =
+            grid.section ? grid.section->point(ring, q) : Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle));
+        x[u] = grid.origin[u] + in_section[0];
+        x[v] = grid.origin[v] + in_section[1];
         if (grid.dimension == 3) x[grid.axis] = along(grid.axis, k);
         offer(x, volume, cell);
       }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "core/shapes.hpp"
+#include "sph_fluid/lattice_rings.hpp"
 #include "sph_fluid/settings.hpp"
 
 namespace undex::sph {
@@ -17,7 +19,8 @@ struct Grid {
   bool rings = false;
   int axis = 2;
   double ring_start = 0, ring_width = 0;
-  long around = 0;  // particles of every ring; 0: as many as its own length asks for
+  long around = 0;                               // particles of every ring; 0: as many as its own length asks for
+  std::shared_ptr<const RingSection> section{};  // where they stand; null: on circles
 };
 
 /// Is given a point [m] and its cell's volume [m^d].

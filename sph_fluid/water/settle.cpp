@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph_fluid/water/descent.hpp"
+#include "core/descent.hpp"
 
 namespace undex::sph {
 namespace {
 
 constexpr double pressure = 1e6;   // [Pa], any
-constexpr double goal = 1e-3;      // of |g| h
+constexpr double goal = 5e-4;      // of |g| h
 constexpr int patience = 40;       // steps for the next tenth
 constexpr double farthest = 0.15;  // that a step takes a particle, in spacings
 

@@ -14,7 +14,7 @@
 namespace undex::sph {
 
 /// |g| h that counts as rest: pressures are uneven by about this share of it.
-inline constexpr double rest_residual = 1e-2;
+inline constexpr double rest_residual = 5e-3;
 
 /// Moves the particles of `bodies` where |g| h is larger, and those within reach of them. Left alone are particles within reach
 /// of a free surface, of bodies with another spacing and of bodies that a start has laid. `water` has the scene's settings and

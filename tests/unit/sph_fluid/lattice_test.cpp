@@ -267,7 +267,11 @@ TEST(Lattice, TurnedMassIsExactAndNothingIsTwice) {
 
 TEST(Lattice, RingsFitTheRadius) {
   for (const double spacing : {0.05, 0.03}) {
-    const BodyParticles filled = fill_bodies(rings(spacing)).at(0);
+    Settings settings = rings(spacing);
+    const BodyParticles settled = fill_bodies(settings).at(0);
+    settings.lattice.settle = false;
+    const BodyParticles filled = fill_bodies(settings).at(0);
+    EXPECT_EQ(settled.volume, filled.volume);
     const double rings_wanted = std::round(0.4445 / spacing), width = 0.4445 / rings_wanted;
     std::set<long> radii, layers;
     for (const Vec3& x : filled.position) {
@@ -276,6 +280,8 @@ TEST(Lattice, RingsFitTheRadius) {
       radii.insert(std::lround(ring));
       layers.insert(std::lround(x[2] * 1e9));
     }
+    for (std::size_t k = 0; k < filled.position.size(); ++k)
+      EXPECT_LT((settled.position[k] - filled.position[k]).norm(), 0.25 * width);
     EXPECT_EQ(radii.size(), std::size_t(rings_wanted));
     EXPECT_EQ(*radii.rbegin(), std::lround(rings_wanted) - 1);
     EXPECT_EQ(layers.size(), std::size_t(2 * std::round(0.2 / spacing)));

@@ -8,7 +8,7 @@
 namespace undex::sph::testing {
 namespace {
 
-constexpr double pressure = 1e7, rest = 1e-2;
+constexpr double pressure = 1e7, rest = 5e-3;
 
 /// Water under pressure in a box of 16 spacings an edge, shifted against its lattice by `off` spacings.
 Settings box(int dimension, double off = 0.0) {
@@ -64,28 +64,25 @@ struct Scene {
 std::ostream& operator<<(std::ostream& out, const Scene& scene) { return out << scene.name; }
 
 std::vector<Scene> uneasy_scenes() {
-  std::vector<Scene> all{{"line_off_its_lattice", box(1, 0.3)},
-                         {"square_off_its_lattice", box(2, 0.3)},
-                         {"box_off_its_lattice", box(3, 0.3)},
-                         {"rings_2d", rings(2)},
-                         {"rings_3d", rings(3)}};
+  std::vector<Scene> all{
+      {"line_off_its_lattice", box(1, 0.3)}, {"square_off_its_lattice", box(2, 0.3)}, {"box_off_its_lattice", box(3, 0.3)}};
   for (const SchemeName scheme : {SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan, SchemeName::paper}) {
     Settings s = box(2);
     s.lattice.jitter = 0.3;
     s.numerics.scheme = scheme;
     // A Gaussian ends in a step, which nothing settles on.
-    all.push_back({"jitter_scheme_" + std::to_string(int(scheme)), s, scheme == SchemeName::paper ? 2.5 * rest : rest});
+    all.push_back({"jitter_scheme_" + std::to_string(int(scheme)), s, scheme == SchemeName::paper ? 5.0 * rest : rest});
   }
   Settings round = rings(2);
   round.lattice.type = LatticeType::cartesian;
   all.push_back({"steps_at_a_round_wall", round});
-  Settings quarter = rings(2);
+  Settings quarter = round;
   quarter.symmetry.axis = {true, true, false};
-  all.push_back({"quarter", quarter});
+  all.push_back({"steps_at_a_quarter", quarter});
   Settings ring = box(2, 0.3);
   ring.axisymmetric = true;
   ring.symmetry.axis[0] = true;
-  all.push_back({"about_an_axis", ring, 2.5 * rest});  // sections settle, not rings
+  all.push_back({"about_an_axis", ring, 10.0 * rest});  // sections settle, not rings
   return all;
 }
 
@@ -96,7 +93,7 @@ TEST_P(Settling, LeavesAllAtRest) {
   Fluid as_laid(GetParam().settings), fluid(GetParam().settings);
   const Ledger before = fluid.ledger();
   fluid.settle();
-  EXPECT_GT(unrest(as_laid), 4.0 * rest) << "nothing to settle";
+  EXPECT_GT(unrest(as_laid), 8.0 * rest) << "nothing to settle";
   EXPECT_LT(unrest(fluid), GetParam().rest);
   const Ledger after = fluid.ledger();
   EXPECT_EQ(fluid.particle_count(), as_laid.particle_count());
@@ -114,6 +111,19 @@ TEST(Settled, LatticesStayAsTheyAre) {
     fluid.step(1e-5);
     EXPECT_EQ(by_id(fluid, "velocity"), by_id(as_laid, "velocity")) << dimension;
   }
+}
+
+TEST(Settled, RingsAreLaidAtRest) {
+  for (const int dimension : {2, 3})
+    for (const bool quarter : {false, true}) {
+      Settings s = rings(dimension);
+      s.symmetry.axis = {quarter, quarter, false};
+      Fluid settled(s);
+      EXPECT_LT(unrest(settled), 3e-4) << dimension << quarter;
+      s.lattice.settle = false;
+      Fluid circles(s);
+      EXPECT_GT(unrest(circles), 0.05) << dimension << quarter;
+    }
 }
 
 TEST(Settled, JitterKeepsItsPressure) {

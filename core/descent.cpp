@@ -1,8 +1,8 @@
-#include "sph_fluid/water/descent.hpp"
+#include "core/descent.hpp"
 
 #include <cmath>
 
-namespace undex::sph {
+namespace undex {
 namespace {
 
 constexpr std::size_t remembered = 6;
@@ -50,4 +50,4 @@ std::vector<Vec3> Descent::step(const std::vector<Vec3>& x, const std::vector<Ve
   return step;
 }
 
-}  // namespace undex::sph
+}  // namespace undex

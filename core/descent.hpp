@@ -5,7 +5,7 @@
 
 #include "core/vector.hpp"
 
-namespace undex::sph {
+namespace undex {
 
 class Descent {
  public:
@@ -24,4 +24,4 @@ class Descent {
   std::vector<Vec3> x_, force_;
 };
 
-}  // namespace undex::sph
+}  // namespace undex
