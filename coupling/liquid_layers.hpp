@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sph_fluid/settings.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 

@@ -1,7 +1,7 @@
 // How deep a place lies within the closed faces of a scene's walls.
 #pragma once
 
-#include "sph_fluid/settings.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 
