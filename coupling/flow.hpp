@@ -23,8 +23,8 @@ class Flow {
 
   /// What the water and the obstacles bear.
   sph::StepLimit step_limit();
-  /// Water and obstacles advance by dt [s]. Throws NumericalStop as Fluid::step does, the obstacles being where they were then; and
-  /// where an obstacle has met something.
+  /// Water and obstacles advance by dt [s]. Throws NumericalStop as Fluid::step does, the obstacles being where they were then;
+  /// and where an obstacle has met something.
   void step(double dt);
 
   /// Obstacles must keep clear of it.

@@ -49,8 +49,8 @@ class RigidObstacle {
   double stable_step() const { return stable_step_; }
   const std::string& body_of_step() const { return liquid_; }
 
-  /// The step from `time` over dt [s], while `force` [N] acts on the nodes at its beginning: half a kick, the drift, and `wall` put
-  /// where the body is then, with the velocity that it will have if the force stays.
+  /// The step from `time` over dt [s], while `force` [N] acts on the nodes at its beginning: half a kick, the drift, and `wall`
+  /// put where the body is then, with the velocity that it will have if the force stays.
   void set_out(double time, double dt, std::span<const Vec3> force, sph::MirrorWall& wall);
   /// The rest of the step: takes the wall's impulse, sets it to zero, and shows the wall the velocity that has come of it.
   void arrive(double time, double dt, sph::MirrorWall& wall);

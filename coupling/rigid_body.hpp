@@ -1,9 +1,9 @@
 // A rigid body in space: Newton's and Euler's equations as kicks (impulses at one moment) and drifts (free motion between them).
 //   dx/dt = v,  m dv/dt = F;   dq/dt = 1/2 (0, w) q,  dL/dt = M,  L = R I R^T w
-// q is a unit quaternion, R its rotation, I the inertia in the body's frame about the middle of mass. While it drifts L is constant,
-// to the last digit, and q is integrated by Runge and Kutta's fourth order in turns of at most 0.02 rad: the energy of a torque-free
-// body drifts by some 1e-12 a turn. Motions along and about the coordinate axes may be held: with P the projection on the free
-// ones L is P R I R^T P w, whose rate still is P M, for what holds the body does no work on w.
+// q is a unit quaternion, R its rotation, I the inertia in the body's frame about the middle of mass. While it drifts L is
+// constant, to the last digit, and q is integrated by Runge and Kutta's fourth order in turns of at most 0.02 rad: the energy of
+// a body without torque drifts by some 1e-12 a turn. Motions along and about the coordinate axes may be held: with P the
+// projection on the free ones L is P R I R^T P w, whose rate still is P M, for what holds the body does no work on w.
 #pragma once
 
 #include <array>

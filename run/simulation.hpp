@@ -63,8 +63,8 @@ class Simulation {
   double momentum_error() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;
-  /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6 of
-  /// all energy, so that rest is no error); nothing where there is no interface.
+  /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6
+  /// of all energy, so that rest is no error); nothing where there is no interface.
   std::optional<double> interface_energy_error() const;
   /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
   std::optional<double> interface_impulse_error() const;

@@ -134,9 +134,9 @@ TEST(Obstacles, ALightBodyIsStable) {
   EXPECT_LT(std::abs(scene.energy() - start), 0.1 * given);
 }
 
-/// Velocity over F a/(m_f c), at tau = c t/a, of a free ball of radius a and mu times the mass m_f of the water that it displaces,
-/// a force F acting from time zero on. In Laplace's domain the water answers with m_f s U (1 + s)/(2 + 2 s + s^2) (a dipole in
-/// sound, s in c/a): half of m_f in the end, rho c per area at first.
+/// Velocity over F a/(m_f c), at tau = c t/a, of a free ball of radius a and mu times the mass m_f of the water that it
+/// displaces, a force F acting from time zero on. In Laplace's domain the water answers with m_f s U (1 + s)/(2 + 2 s + s^2)
+/// (a dipole in sound, s in c/a): half of m_f in the end, rho c per area at first.
 double ball_under_force(double mu, double tau) {
   using Complex = std::complex<double>;
   const double b = 2 * mu + 1;
