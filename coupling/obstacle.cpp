@@ -118,6 +118,19 @@ WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, con
   for (Vec3& x : whole->nodes)
     for (int a = 0; a < fluid.dimension; ++a)
       if (fluid.symmetry.axis[a] && std::abs(x[a]) < near) x[a] = 0.0;
+  const auto is_kept = [&](const Vec3& x) {
+    for (int a = 0; a < fluid.dimension; ++a)
+      if (fluid.symmetry.axis[a] && x[a] < 0.0) return false;
+    return true;
+  };
+  for (const Vec3& x : whole->nodes)
+    if (is_kept(x) && depth_in_walls(x, fluid) < -0.01 * spacing) {
+      char place[120];
+      std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g) m", x[0], x[1], x[2]);
+      refuse(obstacle, "shape",
+             std::string("it reaches beyond the walls, e.g. at ") + place +
+                 "; move it inside, or let one of its flat faces lie in the wall");
+    }
   const auto all = [&](const std::array<int, 4>& face, auto holds) {
     return std::all_of(face.begin(), face.end(), [&](int n) { return holds(whole->nodes[std::size_t(n)]); });
   };
@@ -144,14 +157,6 @@ WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, con
   }
   WetSurface wet = without(*whole, dry);
   if (wet.faces.empty()) refuse(obstacle, "shape", "nothing of it stands within the walls and symmetry planes; move it");
-  for (const Vec3& x : wet.nodes)
-    if (depth_in_walls(x, fluid) < -0.01 * spacing) {
-      char place[120];
-      std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g) m", x[0], x[1], x[2]);
-      refuse(obstacle, "shape",
-             std::string("it reaches beyond the walls, e.g. at ") + place +
-                 "; move it inside, or let one of its flat faces lie in the wall");
-    }
   return wet;
 }
 

@@ -237,6 +237,32 @@ TEST(Obstacles, APlaneThatHalvesABodyLeavesItsMotion) {
   EXPECT_NEAR(speed[0], speed[1], 1e-6 * speed[0]);
 }
 
+TEST(Obstacles, ATurningBoxMovesAlikeInAScenesTurnedByARightAngle) {
+  std::vector<ObstacleState> end;
+  std::vector<double> errors;
+  for (const bool turned : {false, true}) {
+    Obstacle box =
+        obstacle_of(turned ? Box{{-0.1, -0.2, -1}, {0.1, 0.2, 1}} : Box{{-0.2, -0.1, -1}, {0.2, 0.1, 1}}, Motion::free, 700);
+    box.velocity = turned ? Vec3(-2, 3, 0) : Vec3(3, 2, 0);
+    box.spin = Vec3(0, 0, 20);
+    sph::Settings s = water(2, 0.025, Box{{-0.4, -0.4, -1}, {0.4, 0.4, 1}}, {box});
+    s.numerics.precision = sph::Precision::full;
+    s.bodies[0].pressure = 5e6;
+    Scene scene(s, {box});
+    const double start = scene.energy(), given = scene.body().ledger().kinetic;
+    const Vec3 momentum = scene.momentum();
+    scene.run(8e-5, 2e-6);
+    end.push_back(scene.body().state());
+    EXPECT_LT(std::abs(scene.energy() - start), 0.02 * given);
+    EXPECT_LT((scene.momentum() - momentum).norm(), 1e-12 * 2000);
+  }
+  EXPECT_NEAR(end[0].velocity[0], end[1].velocity[1], 1e-9);
+  EXPECT_NEAR(end[0].velocity[1], -end[1].velocity[0], 1e-9);
+  EXPECT_NEAR(end[0].spin[2], end[1].spin[2], 1e-8);
+  EXPECT_LT(end[0].spin[2], 19.0);  // the water takes part
+  EXPECT_GT(end[0].rotation[2], 1e-3);
+}
+
 TEST(Obstacles, WhatCannotStandIsRefused) {
   const Box tank{{0, 0, 0}, {1, 1, 1}};
   sph::Settings s = water(3, 0.05, tank, {});
@@ -251,6 +277,8 @@ TEST(Obstacles, WhatCannotStandIsRefused) {
     return std::string();
   };
   EXPECT_NE(refused(obstacle_of(Sphere{{0.1, 0.5, 0.5}, 0.2}, Motion::fixed)).find("beyond the walls"), std::string::npos);
+  EXPECT_NE(refused(obstacle_of(Box{{0.3, 0.3, -0.3}, {0.6, 0.6, 0.3}}, Motion::fixed)).find("beyond the walls"),
+            std::string::npos);
   EXPECT_NE(refused(obstacle_of(Box{{0.3, 0.3, 0}, {0.6, 0.6, 0.4}}, Motion::free)).find("may part from it"), std::string::npos);
   EXPECT_EQ(refused(obstacle_of(Box{{0.3, 0.3, 0}, {0.6, 0.6, 0.4}}, Motion::fixed)), "");
   Obstacle slides = obstacle_of(Box{{0.3, 0.3, 0}, {0.6, 0.6, 0.4}}, Motion::free);
