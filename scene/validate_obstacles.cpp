@@ -34,11 +34,29 @@ void Validator::obstacles() {
         complain(*draft_.obstacle_nodes[i], "name",
                  path_of(all[i]) + ": a probe has the same name, and both would write history/" + probe.name +
                      ".csv; choose another name");
+    if (draft_.obstacle_good[i]) draft_.obstacle_good[i] = has_size_of_water(all[i], *draft_.obstacle_nodes[i]);
     if (draft_.obstacle_good[i]) obstacle(all[i], *draft_.obstacle_nodes[i]);
   }
   if (!draft_.spacing_good || !all_usable()) return;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (draft_.obstacle_good[i]) room_for(i);
+}
+
+/// One far larger than all bodies of water together is in other units, and its mesh without end.
+bool Validator::has_size_of_water(const Obstacle& one, const Node& node) {
+  Bounds water;
+  for (std::size_t i = 0; i < fluid_.bodies.size(); ++i)
+    if (usable_[i]) water.include(bounds(fluid_.bodies[i].shape, dimension_));
+  if (water.empty()) return true;
+  const Bounds extent = bounds(one.shape, dimension_);
+  const auto longest = [&](const Bounds& box) { return (box.high - box.low).head(dimension_).maxCoeff(); };
+  constexpr double most_times = 10;
+  if (longest(extent) <= most_times * longest(water)) return true;
+  complain(node, "shape",
+           path_of(one) + " is " + rounded(longest(extent)) + " m long, " +
+               rounded(std::round(longest(extent) / longest(water))) +
+               " times as long as all bodies of fluid together: is it in millimetres? Else cut it where the water cannot get to");
+  return false;
 }
 
 /// What one is given, against itself.

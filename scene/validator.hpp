@@ -79,6 +79,7 @@ class Validator {
 
   // validate_obstacles.cpp
   void obstacles();
+  bool has_size_of_water(const coupling::Obstacle& one, const Node& node);
   void obstacle(const coupling::Obstacle& one, const Node& node);
   void driven(const coupling::Obstacle& one, const Node& node, const std::string& path);
   void weight(const coupling::Obstacle& one, const Node& node, const std::string& path);
