@@ -204,7 +204,29 @@ double share(const Shape& shape, const Vec3& center, const Vec3& size, double di
   return share_below_plane(distance, gradient / length, size, dimension);
 }
 
+/// The numbers that make a primitive; a component that means nothing is zero.
+std::vector<double> numbers_of(Primitive shape) {
+  std::vector<double> numbers{double(shape.index())};
+  std::visit(
+      [&](auto& each) {
+        if constexpr (requires {
+                        each.axis;
+                        each.center;
+                      })
+          each.center[each.axis] = 0.0;
+        for_each_field(each, [&](const auto& member, const Key&) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Vec3>)
+            numbers.insert(numbers.end(), member.begin(), member.end());
+          else numbers.push_back(double(member));
+        });
+      },
+      shape);
+  return numbers;
+}
+
 }  // namespace
+
+bool same_shape(const Primitive& one, const Primitive& other) { return numbers_of(one) == numbers_of(other); }
 
 double signed_distance(const Primitive& shape, const Vec3& x, int dimension) { return std::visit(Distance{x, dimension}, shape); }
 

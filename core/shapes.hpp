@@ -179,6 +179,9 @@ struct Shape {
   std::vector<Primitive> removed;
 };
 
+/// Have both the same numbers, those left out that mean nothing?
+bool same_shape(const Primitive& one, const Primitive& other);
+
 /// Signed distance [m] from x to the surface, negative inside; exact outside corners of the base excepted for
 /// subtractions, where it is the usual lower bound. Only the first `dimension` coordinates count.
 double signed_distance(const Primitive& shape, const Vec3& x, int dimension);

@@ -7,13 +7,12 @@
 #include <utility>
 #include <variant>
 
+#include "coupling/liquid_layers.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::coupling {
 namespace {
-
-constexpr double added_mass_share = 0.3;  // of 1/omega: docs/equations.md, section 8
 
 /// Where the fluid slips and its scheme mirrors it, the surface itself; else dummy particles behind it.
 WallIndex add_wall(sph::Fluid& fluid, const WetWall& wall, bool free_slip) {
@@ -27,44 +26,34 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody
   const WetSurface& surface = structure.wet_surface();
   const std::vector<double> area = nodal_areas(surface.faces, surface.nodes);
   const auto mass = structure.wet_masses();
-  // Liquids, and the stiffness [Pa/m] that one layer of their particles shows the wall.
-  std::vector<std::pair<const sph::Body*, double>> liquids;
-  for (const sph::Body& body : fluid.bodies) {
-    if (body.variable_h) continue;
-    const double rho = sph::start_density(body), energy = sph::start_energy(body);
-    const double c = std::visit([&](const auto& law) { return law.evaluate(rho, energy).sound_speed; }, body.material.law);
-    liquids.emplace_back(&body, rho * c * c / body.spacing.value_or(fluid.lattice.spacing));
-  }
+  const LiquidLayers liquids(fluid);
   sph::StepLimit limit;
   limit.step = std::numeric_limits<double>::infinity();
   limit.criterion = "added mass";
   if (liquids.empty()) return limit;
   for (std::size_t n = 0; n < mass.size(); ++n) {
-    const auto distance = [&](const auto& liquid) {
-      return signed_distance(liquid.first->shape, surface.nodes[n], fluid.dimension);
-    };
-    const auto& [body, stiffness] = *std::min_element(
-        liquids.begin(), liquids.end(), [&](const auto& one, const auto& other) { return distance(one) < distance(other); });
-    const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * stiffness));
+    const LiquidLayers::Layer& liquid = liquids.nearest(surface.nodes[n]);
+    const double step = added_mass_share * std::sqrt(mass[n] / (area[n] * liquid.stiffness));
     if (step < limit.step) {
       limit.step = step;
       limit.position = surface.nodes[n];
-      limit.body = body->name;
+      limit.body = liquid.body->name;
     }
   }
   return limit;
 }
 
-Coupler::Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& settings)
-    : fluid_(fluid),
+Coupler::Coupler(Flow& flow, DeformableBody& structure, const Settings& settings)
+    : flow_(flow),
+      fluid_(flow.fluid()),
       structure_(structure),
       settings_(settings),
-      wall_(structure.wet_surface(), fluid.settings().lattice.spacing,
-            sph::kernel_support(fluid.settings().numerics.kernel) *
-                sph::smoothing_length(fluid.settings(), fluid.settings().lattice.spacing),
-            fluid.settings().symmetry.axis),
-      wall_index_(add_wall(fluid, wall_, settings.free_slip)),
-      added_mass_(added_mass_limit(fluid.settings(), structure)),
+      wall_(structure.wet_surface(), fluid_.settings().lattice.spacing,
+            sph::kernel_support(fluid_.settings().numerics.kernel) *
+                sph::smoothing_length(fluid_.settings(), fluid_.settings().lattice.spacing),
+            fluid_.settings().symmetry.axis),
+      wall_index_(add_wall(fluid_, wall_, settings.free_slip)),
+      added_mass_(added_mass_limit(fluid_.settings(), structure)),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
@@ -83,7 +72,7 @@ void Coupler::show_wall(double ahead) {
 }
 
 sph::StepLimit Coupler::step_limit() {
-  const sph::StepLimit limit = fluid_.step_limit();
+  const sph::StepLimit limit = flow_.step_limit();
   return added_mass_.step < limit.step && !fluid_.settings().numerics.fixed_step ? added_mass_ : limit;
 }
 
@@ -109,7 +98,7 @@ Coupler::Window Coupler::advance(double end) {
     const double left = target - fluid_.time();
     window.step = left / std::ceil(left / window.limit.step - 1e-9);
     show_wall(fluid_.time() + window.step - start);
-    fluid_.step(window.step);
+    flow_.step(window.step);
     ++window.fluid_steps;
   } while (fluid_.time() < target * (1 - 1e-12));
   window.held_by_structure = window.fluid_steps > 1;

@@ -10,9 +10,9 @@
 #include <variant>
 
 #include "core/deformable_body.hpp"
+#include "coupling/flow.hpp"
 #include "coupling/settings.hpp"
 #include "coupling/wet_wall.hpp"
-#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 
@@ -40,7 +40,7 @@ class Coupler {
  public:
   /// Shows the fluid the structure's wet surface: as a mirror wall where it slips along it and its scheme mirrors, else as one
   /// lined with dummy particles. Both must outlive the coupler.
-  Coupler(sph::Fluid& fluid, DeformableBody& structure, const Settings& settings);
+  Coupler(Flow& flow, DeformableBody& structure, const Settings& settings);
 
   struct Window {
     double step = 0;                 ///< last fluid step [s]
@@ -64,6 +64,7 @@ class Coupler {
   void collect_impulse(Wall& wall);
   sph::StepLimit step_limit();
 
+  Flow& flow_;
   sph::Fluid& fluid_;
   DeformableBody& structure_;
   Settings settings_;

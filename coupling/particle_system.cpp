@@ -5,12 +5,12 @@
 
 namespace undex::coupling {
 
-ParticleSystem::ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip)
-    : fluid_(fluid), solids_(solids), wall_(fluid.add_wall(solids.wet_wall(free_slip))) {}
+ParticleSystem::ParticleSystem(Flow& flow, solid::Solids& solids, bool free_slip)
+    : flow_(flow), fluid_(flow.fluid()), solids_(solids), wall_(fluid_.add_wall(solids.wet_wall(free_slip))) {}
 
 ParticleSystem::Step ParticleSystem::advance(double end) {
   Step step;
-  step.limit = fluid_.step_limit();
+  step.limit = flow_.step_limit();
   const double left = end - fluid_.time();
   // The last few steps before `end` share what is left, so that none is tiny.
   step.step = left < 3.0 * step.limit.step ? left / std::ceil(left / step.limit.step - 1e-9) : step.limit.step;
@@ -27,7 +27,7 @@ ParticleSystem::Step ParticleSystem::advance(double end) {
   solids_.move_wall(wall, 0.0);
   // The second half of the kick, as far as it is known.
   for (std::size_t k = 0; k < force.size(); ++k) wall.velocity[k] += impulse_[wet[k]] / solids_.masses()[wet[k]];
-  fluid_.step(step.step);
+  flow_.step(step.step);
   for (std::size_t k = 0; k < wet.size(); ++k) {
     impulse_[wet[k]] = wall.impulse[k] - impulse_[wet[k]];
     wall.impulse[k].setZero();

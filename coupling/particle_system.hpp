@@ -4,7 +4,7 @@
 // doi 10.1063/1.463137: half of the fluid's kick before them, half after): momentum is conserved to round-off.
 #pragma once
 
-#include "sph_fluid/water/fluid.hpp"
+#include "coupling/flow.hpp"
 #include "sph_solid/solids.hpp"
 
 namespace undex::coupling {
@@ -12,7 +12,7 @@ namespace undex::coupling {
 class ParticleSystem {
  public:
   /// Both must outlive it.
-  ParticleSystem(sph::Fluid& fluid, solid::Solids& solids, bool free_slip);
+  ParticleSystem(Flow& flow, solid::Solids& solids, bool free_slip);
 
   struct Step {
     double step = 0;       ///< [s]
@@ -23,6 +23,7 @@ class ParticleSystem {
   Step advance(double end);
 
  private:
+  Flow& flow_;
   sph::Fluid& fluid_;
   solid::Solids& solids_;
   sph::LinedIndex wall_;

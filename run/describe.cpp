@@ -125,6 +125,8 @@ std::string describe(const scene::Scene& given) {
     memory += double(body->memory_bytes());
   }
 
+  for (const coupling::RigidObstacle& obstacle : simulation.obstacles()) text += obstacle.description();
+
   text += temperature_notes(scene);
   text += revolution_note(scene);
   for (const std::string& warning : warnings_of(scene, std::filesystem::path("out") / scene.name))

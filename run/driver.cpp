@@ -11,11 +11,11 @@ std::string set_by(const sph::StepLimit& limit) { return limit.criterion + " (" 
 }  // namespace
 
 Step WaterAlone::advance(double end) {
-  const sph::StepLimit limit = fluid_.step_limit();
-  const double left = end - fluid_.time();
+  const sph::StepLimit limit = flow_.step_limit();
+  const double left = end - flow_.time();
   // The last few steps before `end` share what is left, so that none is tiny.
   const double size = left < 3.0 * limit.step ? left / std::ceil(left / limit.step - 1e-9) : limit.step;
-  fluid_.step(size);
+  flow_.step(size);
   return {size, set_by(limit) + ", particle " + std::to_string(limit.particle) + ")"};
 }
 

@@ -1,5 +1,5 @@
 // Who decides on a step, takes it and says what set it: the water alone, a body alone, water and a body coupled by its wet faces,
-// or water and particles of solids as one system.
+// or water and particles of solids as one system. The water is that of a Flow: rigid bodies in it move with it, whoever drives.
 #pragma once
 
 #include <optional>
@@ -29,11 +29,11 @@ class Driver {
 
 class WaterAlone : public Driver {
  public:
-  explicit WaterAlone(sph::Fluid& fluid) : fluid_(fluid) {}
+  explicit WaterAlone(coupling::Flow& flow) : flow_(flow) {}
   Step advance(double end) override;
 
  private:
-  sph::Fluid& fluid_;
+  coupling::Flow& flow_;
 };
 
 class BodyAlone : public Driver {
@@ -47,7 +47,7 @@ class BodyAlone : public Driver {
 
 class Coupled : public Driver {
  public:
-  Coupled(sph::Fluid& fluid, DeformableBody& body, const coupling::Settings& settings) : coupler_(fluid, body, settings) {}
+  Coupled(coupling::Flow& flow, DeformableBody& body, const coupling::Settings& settings) : coupler_(flow, body, settings) {}
   Step advance(double end) override;
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
   PassTimers timers() const override { return coupler_.timers(); }
@@ -59,8 +59,8 @@ class Coupled : public Driver {
 
 class OneSystem : public Driver {
  public:
-  OneSystem(sph::Fluid& fluid, solid::Solids& solids, const coupling::Settings& settings)
-      : system_(fluid, solids, settings.free_slip) {}
+  OneSystem(coupling::Flow& flow, solid::Solids& solids, const coupling::Settings& settings)
+      : system_(flow, solids, settings.free_slip) {}
   Step advance(double end) override;
 
  private:

@@ -68,11 +68,49 @@ std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3
   return [fluid = simulation.fluid(), place] { return fluid->at(place()); };
 }
 
+/// A state of the meridian, in space; along the axis of revolution alone.
+coupling::ObstacleState in_space(coupling::ObstacleState state, const std::optional<Meridian>& meridian) {
+  if (!meridian) return state;
+  const Vec3 outward = meridian->outward();
+  state.position = meridian->place_in_space(state.position, outward);
+  for (Vec3* vector : {&state.velocity, &state.force, &state.impulse}) *vector = meridian->vector_in_space(*vector, outward);
+  return state;
+}
+
+/// What is written of an obstacle: vectors in as many components as the scene has, turns about the axes that are left.
+std::vector<output::Column> obstacle_columns(int dimension) {
+  std::vector<output::Column> columns{{"time", "s"}};
+  const auto add = [&](const std::string& name, const char* unit, int first, int end) {
+    for (int a = first; a < end; ++a) columns.push_back({name + '_' + "xyz"[a], unit});
+  };
+  const int turns = dimension == 3 ? 0 : dimension == 2 ? 2 : 3;
+  add("position", "m", 0, dimension);
+  add("velocity", "m/s", 0, dimension);
+  add("rotation", "rad", turns, 3);
+  add("spin", "rad/s", turns, 3);
+  add("force", "N", 0, dimension);
+  add("moment", "N m", turns, 3);
+  add("impulse", "N s", 0, dimension);
+  return columns;
+}
+
+void append_state(const coupling::ObstacleState& state, int dimension, std::vector<double>& row) {
+  const auto add = [&](const Vec3& v, int first, int end) { row.insert(row.end(), v.data() + first, v.data() + end); };
+  const int turns = dimension == 3 ? 0 : dimension == 2 ? 2 : 3;
+  add(state.position, 0, dimension);
+  add(state.velocity, 0, dimension);
+  add(state.rotation, turns, 3);
+  add(state.spin, turns, 3);
+  add(state.force, 0, dimension);
+  add(state.moment, turns, 3);
+  add(state.impulse, 0, dimension);
+}
+
 }  // namespace
 
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
   const int dimension = scene.structure ? 3 : scene.fluid.dimension;
-  if (!scene.probes.empty()) std::filesystem::create_directories(folder / "history");
+  if (!scene.probes.empty() || !scene.obstacles.empty()) std::filesystem::create_directories(folder / "history");
   const std::optional<Meridian>& meridian = simulation.meridian();
   for (const scene::Probe& probe : scene.probes) {
     const Vec3 x = meridian ? meridian->place(probe.point) : probe.point;
@@ -89,22 +127,34 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
       const auto point = fluid_point(simulation, x, on_wall, 2.0 * scene.fluid.lattice.spacing);
       read = reader<FluidPoint>(quantities, dimension, in_space(point, meridian, probe.point));
     }
-    channels_.push_back({.probe = probe,
+    channels_.push_back({.name = probe.name,
+                         .may_lie_in_wave = probe.kind == scene::Probe::Kind::fluid,
                          .read = std::move(read),
                          .path = folder / "history" / (probe.name + ".csv"),
                          .samples = output::Samples(std::move(columns)),
                          .history = {}});
     if (!goes_on) channels_.back().history.emplace(channels_.back().path, channels_.back().samples.columns);
   }
+  for (std::size_t k = 0; k < simulation.obstacles().size(); ++k) {
+    const coupling::RigidObstacle& obstacle = simulation.obstacles()[k];
+    Channel& channel = channels_.emplace_back();
+    channel.name = obstacle.given().name;
+    channel.read = [&simulation, k, dimension, meridian](std::vector<double>& row) {
+      append_state(in_space(simulation.obstacles()[k].state(), meridian), dimension, row);
+    };
+    channel.path = folder / "history" / (channel.name + ".csv");
+    channel.samples = output::Samples(obstacle_columns(dimension));
+    if (!goes_on) channel.history.emplace(channel.path, channel.samples.columns);
+  }
 }
 
 void Probes::visit_state(StateVisitor& state) {
   std::string known;  // names, each with a line's end
-  for (const Channel& channel : channels_) known += channel.probe.name + "\n";
+  for (const Channel& channel : channels_) known += channel.name + "\n";
   state("names", known);
   for (Channel& channel : channels_) {
-    if (("\n" + known).find("\n" + channel.probe.name + "\n") != std::string::npos)
-      state.part("history " + channel.probe.name, [&] { channel.samples.visit_state(state); });
+    if (("\n" + known).find("\n" + channel.name + "\n") != std::string::npos)
+      state.part("history " + channel.name, [&] { channel.samples.visit_state(state); });
     if (state.restores()) channel.history.emplace(output::History::continued(channel.path, channel.samples));
   }
 }
@@ -126,8 +176,7 @@ void Probes::sample(const Simulation& simulation) {
 
 void Probes::sample_before(double time) {
   for (Channel& channel : channels_)
-    if (channel.probe.kind != scene::Probe::Kind::fluid)  // it may lie inside the wave
-      append(channel, row_of(channel, time));
+    if (!channel.may_lie_in_wave) append(channel, row_of(channel, time));
 }
 
 void Probes::flush() {
@@ -136,7 +185,7 @@ void Probes::flush() {
 
 std::map<std::string, output::Samples> Probes::samples() const {
   std::map<std::string, output::Samples> all;
-  for (const Channel& channel : channels_) all[channel.probe.name] = channel.samples;
+  for (const Channel& channel : channels_) all[channel.name] = channel.samples;
   return all;
 }
 

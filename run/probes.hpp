@@ -1,4 +1,4 @@
-// The histories of a run: one CSV file per probe, and the samples as evidence for a verdict.
+// The histories of a run: one CSV file per probe and per obstacle, and the samples as evidence for a verdict.
 #pragma once
 
 #include <filesystem>
@@ -28,12 +28,13 @@ class Probes {
   void sample_before(double time);
   void flush();
 
-  /// What has been sampled, by the probe's name.
+  /// What has been sampled, by the name of the probe or obstacle.
   std::map<std::string, output::Samples> samples() const;
 
  private:
   struct Channel {
-    scene::Probe probe;
+    std::string name;
+    bool may_lie_in_wave = false;                        ///< of a spherical start
     std::function<void(std::vector<double>& row)> read;  ///< appends the present values of its columns
     std::filesystem::path path;
     output::Samples samples;

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 #include "run/donor.hpp"
-#include "run/obstacles.hpp"
+#include "run/undisturbed.hpp"
 #include "run/particle_state.hpp"
 #include "run/spherical_start.hpp"
 #include "run/spherical_state.hpp"
@@ -167,7 +167,7 @@ class RunStart {
         donor_(scene, options),
         pairing_(scene_, donor_.scene()),
         partner_(pairing_.partners()),
-        obstacles_(obstacles_between(scene_, donor_.scene())),
+        undisturbed_(not_shared_by(scene_, donor_.scene())),
         reach_(sph::kernel_support(scene.fluid.numerics.kernel) *
                sph::smoothing_length(scene.fluid, scene.fluid.lattice.spacing)),
         threshold_(threshold_of(donor_.scene())),
@@ -223,11 +223,11 @@ class RunStart {
     const scene::Line& line = donor_.simulation().line()->line();
     for (const scene::LineLayer& layer : line.layers)
       if (layer.is_solid) return;  // refused below by its obstacle
-    obstacles_.push_back({"the end of the donor",
-                          [center = line.center, outer = line.outer()](const Vec3& x) { return outer - (x - center).norm(); }});
+    undisturbed_.push_back({"the end of the donor",
+                            [center = line.center, outer = line.outer()](const Vec3& x) { return outer - (x - center).norm(); }});
     for (int a = 0; a < 3; ++a)
       if (scene_.fluid.symmetry.axis[a] && line.center[a] > 0.0)
-        obstacles_.push_back({std::string("the symmetry plane ") + letters[a] + " = 0", [a](const Vec3& x) { return x[a]; }});
+        undisturbed_.push_back({std::string("the symmetry plane ") + letters[a] + " = 0", [a](const Vec3& x) { return x[a]; }});
   }
 
   /// Radius up to which anything of a spherical donor has moved [m]: what is compressed, or has another density. A free outer
@@ -252,11 +252,11 @@ class RunStart {
   ParticleState particles() const { return {donor_.scene(), donor_.simulation(), first_places_, threshold_, widest_}; }
 
   /// The obstacle that the donor's wave is nearest to, and how far that is [m].
-  std::pair<const Obstacle*, double> nearest_obstacle() const {
-    std::pair<const Obstacle*, double> nearest{nullptr, std::numeric_limits<double>::infinity()};
-    if (obstacles_.empty()) return nearest;
+  std::pair<const Undisturbed*, double> nearest_obstacle() const {
+    std::pair<const Undisturbed*, double> nearest{nullptr, std::numeric_limits<double>::infinity()};
+    if (undisturbed_.empty()) return nearest;
     const std::optional<ParticleState> state = on_a_line() ? std::nullopt : std::optional(particles());
-    for (const Obstacle& obstacle : obstacles_) {
+    for (const Undisturbed& obstacle : undisturbed_) {
       const double left =
           state ? state->clearance(obstacle.distance) : obstacle.distance(donor_.simulation().line()->line().center) - front();
       if (left < nearest.second) nearest = {&obstacle, left};
@@ -267,7 +267,7 @@ class RunStart {
   void advance() {
     const std::optional<double>& time = scene_.start.time;
     const double end = time.value_or(donor_.scene().end_time), before = 1.5 * scene_.fluid.lattice.spacing;
-    if (!time && obstacles_.empty())
+    if (!time && undisturbed_.empty())
       pairing_.refuse("start.time",
                       "both scenes have the same bodies and walls, so that no obstacle says when to begin; give start.time");
     if (time) donor_.skip_to(*time);
@@ -393,7 +393,7 @@ class RunStart {
   Donor donor_;
   Pairing pairing_;
   std::vector<std::optional<std::size_t>> partner_;  // the donor's bodies, by this scene's
-  std::vector<Obstacle> obstacles_;
+  std::vector<Undisturbed> undisturbed_;
   double reach_, threshold_, widest_;
   std::vector<Vec3> first_places_;  // of a donor's particles
 };

@@ -138,6 +138,11 @@ void Simulation::build(const scene::Scene& scene) {
       solids = built.get();
       bodies_.push_back(std::move(built));
     });
+  if (findings.empty() && fluid_)
+    attempt("obstacles", [&] {
+      flow_ = std::make_unique<coupling::Flow>(*fluid_, scene.obstacles);
+      for (const auto& body : bodies_) flow_->watch(*body);
+    });
   if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
   if (findings.empty() && fluid_) fluid_->settle();
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
@@ -152,10 +157,10 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
   };
   if (!fluid_) return drive(bodies_.front().get(), std::make_unique<BodyAlone>(*bodies_.front()));
   if (solids && settings.solids == coupling::SolidContact::particles)
-    return drive(solids, std::make_unique<OneSystem>(*fluid_, *solids, settings));
+    return drive(solids, std::make_unique<OneSystem>(*flow_, *solids, settings));
   for (const auto& body : bodies_)
-    if (!body->wet_surface().faces.empty()) return drive(body.get(), std::make_unique<Coupled>(*fluid_, *body, settings));
-  drive(nullptr, std::make_unique<WaterAlone>(*fluid_));
+    if (!body->wet_surface().faces.empty()) return drive(body.get(), std::make_unique<Coupled>(*flow_, *body, settings));
+  drive(nullptr, std::make_unique<WaterAlone>(*flow_));
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
@@ -183,6 +188,7 @@ void Simulation::advance(double end) {
 void Simulation::visit_state(StateVisitor& state) {
   if (line_) state.part("line", [&] { line_->visit_state(state); });
   if (fluid_) state.part("fluid", [&] { fluid_->visit_state(state); });
+  if (flow_) state.part("obstacles", [&] { flow_->visit_state(state); });
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     state.part("body " + std::to_string(b), [&] { bodies_[b]->visit_state(state); });
   state.part("driver", [&] { driver_->visit_state(state); });
@@ -224,9 +230,16 @@ EnergyBalance Simulation::energy() const {
     e.work_received += copies_ * l.received;
     e.external += copies_ * l.external;
   }
+  for (const coupling::RigidObstacle& obstacle : obstacles()) {
+    const coupling::ObstacleLedger l = obstacle.ledger();
+    e.obstacle_kinetic += copies_ * l.kinetic;
+    e.work_received += copies_ * l.work_received;
+    e.external += copies_ * l.external;
+    e.gravity += copies_ * l.gravity;
+  }
   e.start = start_energy_;
-  e.scale = std::max(
-      {std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), e.kinetic + e.structure_kinetic});
+  e.scale = std::max({std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity),
+                      e.kinetic + e.structure_kinetic + e.obstacle_kinetic});
   return e;
 }
 
@@ -249,12 +262,14 @@ Vec3 Simulation::momentum() const {
   if (fluid_) momentum += fluid_->ledger().momentum;
   if (line_) momentum[0] += line_->ledger().momentum;
   for (const auto& body : bodies_) momentum += body->ledger().momentum;
+  for (const coupling::RigidObstacle& obstacle : obstacles()) momentum += obstacle.ledger().momentum;
   return momentum;
 }
 
 Vec3 Simulation::impulse() const {
   Vec3 impulse = all_mass() * (time() - start_time_) * gravity_;
   for (const auto& body : bodies_) impulse += body->ledger().impulse;
+  for (const coupling::RigidObstacle& obstacle : obstacles()) impulse += obstacle.ledger().outside;
   return impulse;
 }
 
@@ -271,7 +286,9 @@ double Simulation::momentum_error() const {
   if (balanced_ == std::array{false, false, false}) return std::numeric_limits<double>::quiet_NaN();
   const EnergyBalance e = energy();
   const Vec3 given = impulse();
-  const double one_way = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic) / copies_ * all_mass());
+  double mass = all_mass();
+  for (const coupling::RigidObstacle& obstacle : obstacles()) mass += obstacle.ledger().mass;
+  const double one_way = std::sqrt(2.0 * (e.kinetic + e.structure_kinetic + e.obstacle_kinetic) / copies_ * mass);
   const double scale = std::max(one_way, given.norm());
   Vec3 change = momentum() - start_momentum_ - given;
   for (int a = 0; a < 3; ++a)
@@ -291,8 +308,23 @@ std::optional<double> Simulation::angular_momentum_error() const {
   return scale > 0 ? (angular_momentum() - start_angular_momentum_).norm() / scale : 0.0;
 }
 
+std::optional<coupling::InterfaceLedger> Simulation::interface() const {
+  std::optional<coupling::InterfaceLedger> ledger = driver_->interface();
+  if (obstacles().empty()) return ledger;
+  coupling::InterfaceLedger all = ledger.value_or(coupling::InterfaceLedger{});
+  all.work_given = fluid_->ledger().wall_work;
+  for (const coupling::RigidObstacle& obstacle : obstacles()) {
+    const coupling::ObstacleLedger l = obstacle.ledger();
+    all.impulse_given += l.received;
+    all.impulse_received += l.received;
+    all.impulse_exchanged += l.exchanged;
+    all.work_received += l.work_received;
+  }
+  return all;
+}
+
 std::optional<double> Simulation::interface_energy_error() const {
-  const auto l = driver_->interface();
+  const auto l = interface();
   if (!l) return std::nullopt;
   const EnergyBalance e = energy();
   const double scale =
@@ -301,7 +333,7 @@ std::optional<double> Simulation::interface_energy_error() const {
 }
 
 std::optional<double> Simulation::interface_impulse_error() const {
-  const auto l = driver_->interface();
+  const auto l = interface();
   if (!l) return std::nullopt;
   return l->impulse_exchanged > 0 ? (l->impulse_given - l->impulse_received).norm() / l->impulse_exchanged : 0.0;
 }
@@ -329,6 +361,7 @@ output::NamedNumbers Simulation::passes() const {
     for (const auto& pass : timers.seconds()) all.push_back(pass);
   };
   if (fluid_) add(fluid_->timers());
+  if (flow_ && !obstacles().empty()) add(flow_->timers());
   add(driver_->timers());
   for (const auto& body : bodies_) add(body->timers());
   return all;

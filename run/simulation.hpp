@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,15 @@ namespace undex::run {
 struct EnergyBalance {
   double kinetic = 0, internal = 0, dissipated = 0;                     // fluid
   double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
+  double obstacle_kinetic = 0;                                          // free rigid bodies
   double work_given = 0, work_received = 0;                             // across the interface
-  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids; the interface's is not in it
+  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids, of what drives or leads rigid
+                        // bodies; the interface's is not in it
   double gravity = 0;   // its work on everything
   double start = 0;     // sum at the start
   double total() const {
-    return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity;
+    return kinetic + internal + dissipated + structure_kinetic + obstacle_kinetic + elastic + plastic + viscous - external -
+           gravity;
   }
   double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
@@ -59,8 +63,8 @@ class Simulation {
   double momentum_error() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;
-  /// (work given - work received) over the larger of the two across the interface (but not less than 1e-6 of all energy, so that
-  /// rest is no error); nothing where there is no interface.
+  /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6
+  /// of all energy, so that rest is no error); nothing where there is no interface.
   std::optional<double> interface_energy_error() const;
   /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
   std::optional<double> interface_impulse_error() const;
@@ -71,7 +75,11 @@ class Simulation {
   /// The meridian in which solvers see an axisymmetric scene: their places, and vectors, are (r, axial, 0).
   const std::optional<Meridian>& meridian() const { return meridian_; }
   const sph::Fluid* fluid() const { return fluid_.get(); }  ///< in particles; null: none
-  const LineFlow* line() const { return line_.get(); }      ///< where all is on the one-dimensional mesh; else null
+  /// Rigid bodies in it, as the solvers see them.
+  std::span<const coupling::RigidObstacle> obstacles() const {
+    return flow_ ? std::span(flow_->obstacles()) : std::span<const coupling::RigidObstacle>();
+  }
+  const LineFlow* line() const { return line_.get(); }  ///< where all is on the one-dimensional mesh; else null
   bool has_fluid() const { return fluid_ || line_; }
   /// A field of the fluid's particles, or of the mesh's cells, at time().
   std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
@@ -87,13 +95,16 @@ class Simulation {
   double mass() const;
   double all_mass() const;
   Vec3 momentum() const;
-  /// Of gravity, loads and rigid planes since the start [N s].
+  /// What has crossed wet faces and the surfaces of rigid bodies.
+  std::optional<coupling::InterfaceLedger> interface() const;
+  /// Of gravity, loads, rigid planes, and what drives or holds rigid bodies since the start [N s].
   Vec3 impulse() const;
   Vec3 angular_momentum() const;
 
   std::optional<Meridian> meridian_;
   std::unique_ptr<LineFlow> line_;
   std::unique_ptr<sph::Fluid> fluid_;
+  std::unique_ptr<coupling::Flow> flow_;  // the fluid with its obstacles
   std::vector<std::unique_ptr<DeformableBody>> bodies_;
   std::unique_ptr<Driver> driver_;
   std::vector<DeformableBody*> followers_;  // bodies that the driver does not advance

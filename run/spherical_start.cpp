@@ -114,6 +114,10 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
 
 }  // namespace
 
+bool moves_by_itself(const coupling::Obstacle& obstacle) {
+  return obstacle.velocity.norm() > 0 || obstacle.spin.norm() > 0 || !obstacle.speed.empty() || !obstacle.force.empty();
+}
+
 double start_pressure(const sph::Body& body) {
   const double rho = start_density(body), energy = start_energy(body);
   return std::visit([&](const auto& law) { return law.evaluate(rho, energy).pressure; }, body.material.law);
@@ -140,6 +144,9 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
     if (solid.residual_stress != 0)
       refuse(scene, "'" + solid.name + "' begins under stress, but all else must stay at rest" + remedy);
   }
+  for (const coupling::Obstacle& obstacle : scene.obstacles)
+    if (moves_by_itself(obstacle))
+      refuse(scene, "obstacle '" + obstacle.name + "' moves by itself, but all else must be at rest" + remedy);
   if (!scene.structure) return;
   if (scene.structure->initial_velocity.norm() > 0)
     refuse(scene, "the structure must be at rest, but it has a velocity; take start.kind = \"plain\"");

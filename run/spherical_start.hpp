@@ -14,6 +14,9 @@ namespace undex::run {
 /// At the start [Pa].
 double start_pressure(const sph::Body& body);
 
+/// Is it told to move, driven by a force, or in motion at the start?
+bool moves_by_itself(const coupling::Obstacle& obstacle);
+
 /// Throws SceneError, as the scene's start.kind, where anything would not stay as it is until the particles take over: all but
 /// the bodies in motion (indices) must be at rest under the pressure `rest` [Pa].
 void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, double rest);

@@ -20,9 +20,9 @@ struct Draft {
   Report report;
   Report warnings;  ///< what may be meant, and probably is not
   bool dimension_good = true, spacing_good = false;
-  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes,
+  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes, obstacle_nodes,
       probe_nodes;  ///< into root, beside the scene's own vectors
-  std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, probe_good;
+  std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, obstacle_good, probe_good;
   struct NamedSubtraction {
     const Node* name;  ///< as written
     std::size_t from;  ///< of which body; solids count on after the bodies
@@ -41,6 +41,8 @@ std::string file_text(const std::filesystem::path& file);
 std::string name_of(const std::filesystem::path& file, const char* usual_name);
 
 void read_fluid(Draft& draft);  // read_fluid.cpp: [resolution], [symmetry], [scheme], [[bodies]], [[walls]]
+/// read_obstacles.cpp: [[obstacles]], which are taken out of the bodies of fluid.
+void read_obstacles(Draft& draft);
 /// Of scenes on the one-dimensional mesh: defaults that need all bodies.
 void complete_line(Draft& draft);
 void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]

@@ -111,6 +111,7 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   read_fluid(draft);
   read_solids(draft);
   resolve_subtractions(draft);
+  read_obstacles(draft);
   complete_line(draft);
   read_structure(draft);
   read_output(draft);

@@ -30,6 +30,7 @@ class Judge {
     for (const sph::Wall& wall : scene_.fluid.walls) of_wall(wall);
     if (scene_.structure) of_structure(*scene_.structure);
     for (const solid::Body& solid : scene_.solids.bodies) of_solid(solid);
+    for (const coupling::Obstacle& obstacle : scene_.obstacles) of_obstacle(obstacle);
     return std::move(found_);
   }
 
@@ -132,6 +133,15 @@ class Judge {
     if (!solid.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (solid.residual_stress != 0.0) object(path + ".residual_stress", "it is there for cylinders in two and three dimensions");
     slip(scene_.fluid.bodies.empty());
+  }
+
+  void of_obstacle(const coupling::Obstacle& obstacle) {
+    const std::string path = "obstacles." + obstacle.name;
+    if (const std::string why = flaw(obstacle.shape); !why.empty()) object(path + ".shape", why);
+    if (!is_along(obstacle.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
+    if (!is_along(obstacle.direction)) object(path + ".direction", "it must be along the axis of revolution, " + axis_);
+    if (!obstacle.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
+    if (!obstacle.inertia.empty()) object(path + ".inertia", "nothing turns in an axisymmetric scene; leave it out");
   }
 
   void slip(bool dry) {
@@ -261,6 +271,18 @@ solid::Body meridian_of(const solid::Body& solid, const Meridian& line) {
   return meridian;
 }
 
+coupling::Obstacle meridian_of(const coupling::Obstacle& obstacle, const Meridian& line) {
+  coupling::Obstacle meridian = obstacle;
+  meridian.shape = meridian_of(obstacle.shape, line);
+  const auto vector = [&](const Vec3& v) { return line.vector(v, line.outward()); };
+  meridian.velocity = vector(obstacle.velocity);
+  meridian.direction = vector(obstacle.direction);
+  const bool held = std::find(obstacle.fixed.begin(), obstacle.fixed.end(), letters[line.axis]) != obstacle.fixed.end();
+  meridian.fixed.clear();
+  if (held) meridian.fixed.push_back(letters[axial]);
+  return meridian;
+}
+
 }  // namespace
 
 std::vector<Objection> objections(const Scene& scene, const Meridian& meridian) { return Judge(scene, meridian).findings(); }
@@ -334,6 +356,7 @@ Scene for_solvers(const Scene& scene) {
   if (meridian.structure) meridian.structure = meridian_of(*scene.structure, line);
   for (solid::Body& solid : meridian.solids.bodies) solid = meridian_of(solid, line);
   for (RigidPlane& plane : meridian.solids.planes) plane.axis = axial;
+  for (coupling::Obstacle& obstacle : meridian.obstacles) obstacle = meridian_of(obstacle, line);
   return meridian;
 }
 

@@ -228,6 +228,7 @@ struct Scene {
   solid::Settings solids;            ///< solids in particles; rigid planes for structures too
   std::optional<fem::Settings> structure;
   coupling::Settings coupling;
+  std::vector<coupling::Obstacle> obstacles;  ///< rigid bodies in the fluid; subtracted from its shapes
   Start start;
   std::vector<Probe> probes;
   Output output;
@@ -264,10 +265,11 @@ void describe(Scene& scene, Visit&& visit) {
   visit(scene.fluid.gravity,
         {.name = "gravity",
          .unit = "m/s^2",
-         .meaning = "acts on fluid, structure and solids; not across a symmetry plane that cuts any of them, nor with "
-                    "`start.kind` \"spherical\" or \"run\""});
+         .meaning =
+             "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them, nor with "
+             "`start.kind` \"spherical\" or \"run\""});
   for (const char* table : {"resolution", "symmetry", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
-                            "solid_scheme", "planes", "coupling", "probes", "output", "comparison"})
+                            "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
     visit(ByHand{}, {.name = table});
 }
 

@@ -52,6 +52,7 @@ void for_each_table(auto&& visit) {
   visit("solid_scheme", "", all_defaults<solid::Numerics>(), "");
   visit("planes", "", all_defaults<RigidPlane>(), "");
   visit("coupling", "", all_defaults<coupling::Settings>(), "");
+  visit("obstacles", "", all_defaults<coupling::Obstacle>(), "");
   visit("probes", "", all_defaults<Probe>(), "");
   visit("output", "", all_defaults<Output>(), "");
   for_each_alternative("shape.", "type", visit, std::type_identity<Primitive>{});

@@ -192,6 +192,11 @@ std::string to_toml(const Scene& scene) {
     writer.table("[coupling]", "coupling");
     writer.fields(scene.coupling);
   }
+  for (const coupling::Obstacle& obstacle : scene.obstacles) {
+    writer.table("[[obstacles]]", "obstacles");
+    writer.fields(obstacle, false);
+    put_shape(writer, "[obstacles.shape]", obstacle.shape);
+  }
   if (!scene.fluid.bodies.empty()) {
     writer.table("[start]", "start");
     writer.fields(scene.start, false);

@@ -50,6 +50,7 @@ void Validator::run() {
   solids();
   mirrors();
   planes();
+  obstacles();
   thin_walls();
   start_time();
   for (std::size_t i = 0; i < scene_.probes.size(); ++i)
@@ -123,6 +124,7 @@ void Validator::names() {
   };
   unique("bodies", fluid_.bodies, draft_.body_nodes);
   unique("solids", scene_.solids.bodies, draft_.solid_nodes);
+  unique("obstacles", scene_.obstacles, draft_.obstacle_nodes);
   for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i)
     for (const sph::Body& body : fluid_.bodies)
       if (body.name == scene_.solids.bodies[i].name)

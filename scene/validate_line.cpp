@@ -37,6 +37,10 @@ void Validator::off_the_line(const std::string& words) {
   const bool spherical = scene_.geometry == Geometry::spherical;
   if (draft_.structure_node)
     draft_.report.add(*draft_.structure_node, words + " has no finite elements; write the structure as a layer, in [[solids]]");
+  if (!draft_.obstacle_nodes.empty())
+    draft_.report.add(*draft_.obstacle_nodes[0],
+                      "[[obstacles]] do not go with " + words +
+                          "; take [[solids]] as a rigid layer's stand-in, or dimension = 1, whose particles meet obstacles");
   if (!fluid_.gravity.isZero()) complain(draft_.root, "gravity", "gravity does not go with " + words + "; leave it out");
   if (!draft_.plane_nodes.empty())
     draft_.report.add(*draft_.plane_nodes[0], "[[planes]] do not go with " + words + "; take [[walls]] at an end");

@@ -1,4 +1,5 @@
 // Walls with water on both of their sides that are thinner than the water's kernel reaches.
+#include "core/closed_surface.hpp"
 #include "scene/validator.hpp"
 
 namespace undex::scene {
@@ -91,6 +92,12 @@ void Validator::thin_walls() {
     for (const std::string& face : shape_faces(shape.base, dimension_, {false, false, false}))
       for (const Vec3& x : face_points(shape.base, face)) points.push_back(x);
     look(inside(shape, dimension_), points, images, "solids." + scene_.solids.bodies[i].name, *draft_.solid_nodes[i]);
+  }
+  for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
+    if (!draft_.obstacle_good[i]) continue;
+    const Shape shape{scene_.obstacles[i].shape, {}};
+    if (const auto surface = closed_surface(shape.base, fluid_.lattice.spacing, dimension_))
+      look(inside(shape, dimension_), surface->nodes, true, "obstacles." + scene_.obstacles[i].name, *draft_.obstacle_nodes[i]);
   }
   if (fluid_.walls.size() < 2 ||
       std::find(draft_.wall_shape_good.begin(), draft_.wall_shape_good.end(), false) != draft_.wall_shape_good.end())

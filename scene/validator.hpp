@@ -77,6 +77,14 @@ class Validator {
   void mirrored_structure();
   void mirrored_burn(const sph::Body& body, const Node& node);
 
+  // validate_obstacles.cpp
+  void obstacles();
+  bool has_size_of_water(const coupling::Obstacle& one, const Node& node);
+  void obstacle(const coupling::Obstacle& one, const Node& node);
+  void driven(const coupling::Obstacle& one, const Node& node, const std::string& path);
+  void weight(const coupling::Obstacle& one, const Node& node, const std::string& path);
+  void room_for(std::size_t index);
+
   // validate_sizes.cpp
   void sizes();
   void size_of_structure(double of_bodies);

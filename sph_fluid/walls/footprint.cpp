@@ -51,6 +51,7 @@ Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const 
 }
 
 std::vector<Vec3> Footprint::seen(std::span<const Vec3> nodal) const {
+  if (begin_.empty()) return {nodal.begin(), nodal.end()};
   std::vector<Vec3> result(nodal.size(), Vec3::Zero());
 #pragma omp parallel for schedule(static)
   for (std::size_t n = 0; n < nodal.size(); ++n)
@@ -60,7 +61,8 @@ std::vector<Vec3> Footprint::seen(std::span<const Vec3> nodal) const {
 }
 
 void Footprint::spread(std::span<const Vec3> nodal, std::vector<Vec3>& sum) const {
-  for (std::size_t n = 0; n < nodal.size(); ++n)
+  for (std::size_t n = 0; begin_.empty() && n < nodal.size(); ++n) sum[n] += nodal[n];
+  for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
     for (std::size_t k = begin_[n]; k < begin_[n + 1]; ++k)
       sum[shares_[k].node] += shares_[k].weight * mirrored(nodal[n], shares_[k].mirror);
 }

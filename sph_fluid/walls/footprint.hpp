@@ -16,6 +16,8 @@ namespace undex::sph {
 
 class Footprint {
  public:
+  /// Of a rigid mesh: S is the unit matrix, so that a load keeps its moment and a velocity is that of the foot.
+  Footprint() = default;
   /// Of the faces' nodes at `position` [m]; `width` H [m].
   Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
             const std::array<bool, 3>& symmetry);
@@ -31,7 +33,7 @@ class Footprint {
     unsigned mirror;  // bit a of `mirror`: reflected across axis a
     double weight;
   };
-  std::vector<std::size_t> begin_;
+  std::vector<std::size_t> begin_;  // empty: the unit matrix
   std::vector<Share> shares_;
 };
 

@@ -108,8 +108,9 @@ WallPoint SeenMirrors::point(const WallFoot& foot) const {
   Vec3 velocity = Vec3::Zero();
   for (int c = 0; c < 4; ++c) velocity += weight[c] * velocity_[foot.wall][nodes[c]];
   const double here = frame.element(-foot.at.distance), there = frame.element(foot.at.distance);
-  return {
-      .foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(here > 0.0 ? there / here : 0.0)};
+  // Beyond the centre of curvature in front images are as large as they may be, beyond that behind as small.
+  const double ratio = here > 0.0 ? std::max(there / here, 1e-6) : 0.0;
+  return {.foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(ratio)};
 }
 
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {

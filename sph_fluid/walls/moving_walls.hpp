@@ -20,6 +20,7 @@ struct WallPoints {
 /// A mesh in which the fluid is mirrored (wall_images.hpp).
 struct MirrorWall : WallPoints {
   std::vector<std::array<int, 4>> faces;  ///< as WetSurface has them
+  bool rigid = false;                     ///< it moves as one: its nodes share nothing (footprint.hpp)
 };
 
 /// Dummy particles.

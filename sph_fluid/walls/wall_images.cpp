@@ -52,8 +52,8 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
 void WallImages::see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls) {
   while (footprints_.size() < walls.size()) {
     const MirrorWall& wall = walls[footprints_.size()];
-    footprints_.emplace_back(wall.faces, wall.position, smoothing_length(settings, settings.lattice.spacing),
-                             settings.symmetry.axis);
+    const double width = smoothing_length(settings, settings.lattice.spacing);
+    footprints_.push_back(wall.rigid ? Footprint() : Footprint(wall.faces, wall.position, width, settings.symmetry.axis));
   }
 }
 

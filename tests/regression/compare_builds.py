@@ -37,6 +37,7 @@ FURTHER = {
     "gas_water_shock_tube/column.toml": {"resolution.spacing": 0.004},
     "gas_water_shock_tube/water_gas.toml": {"resolution.spacing": 0.001},
     "jwl_water/column.toml": {"resolution.spacing": 0.004},
+    "obstacles/piston.toml": {"resolution.spacing": 0.0025},
     "petn_slab/column.toml": {"resolution.spacing": 8e-4},
     "rigid_cylinder/chained.toml": {"resolution.spacing": 0.004, "end_time": 30e-6},
     "rigid_cylinder/first_wave.toml": {},

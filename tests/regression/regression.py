@@ -93,6 +93,8 @@ CASES = {
                       extremes=["at_0.pressure", "at_1.pressure", "at_1.velocity_x"]),
     "sedov": Case("sedov", 0.1, {"resolution.spacing": 0.05, "probes": probes_at([0.3, 0, 0])}, extremes=["at_0.pressure"]),
     "noh": Case("noh", 0.6, {"resolution.spacing": 0.1, "probes": probes_at([0.1, 0.1, 0.1])}, extremes=["at_0.density"]),
+    "obstacles": Case("obstacles", 100 * US, {"resolution.spacing": 0.005, "start.kind": "plain", "scheme.precision": "full"},
+                      extremes=["before.pressure", "ball.velocity_z", "ball.force_z"]),
     "tube_pulse": Case("tube_pulse", 40 * US, {"output.field_interval": 20e-6, "structure.cells": "{through = 2, around = 32, along = 24}"},
                        fields=[0.0, 20e-6, 40e-6],
                        extremes=["midline_outer.displacement_x", "midline_outer.velocity_x", "midline_outer.plastic_strain",
@@ -180,9 +182,9 @@ def check_histories(case, summary, folder):
         if case.scene != "tube_pulse" and len(times) != rows:  # that scene has a history_interval
             found.append(f"{name}: {len(times)} rows for {summary['steps']} steps")
     resolved = (folder / "resolved.toml").read_text()
-    probes = resolved.count("[[probes]]")
+    probes = resolved.count("[[probes]]") + resolved.count("[[obstacles]]")
     if len(list((folder / "history").glob("*.csv"))) != probes or probes == 0:
-        found.append(f"{probes} probes, but histories {sorted(p.name for p in (folder / 'history').iterdir())}")
+        found.append(f"{probes} probes and obstacles, but histories {sorted(p.name for p in (folder / 'history').iterdir())}")
     return found
 
 

@@ -85,6 +85,7 @@ struct Column {
   static constexpr double speed = 0.3;  // [m/s]
   sph::Fluid fluid;
   RigidPlate plate;
+  Flow flow{fluid};
   Coupler coupler;
   double start_energy;
 
@@ -103,7 +104,7 @@ struct Column {
     return s;
   }
   explicit Column(double layers, double length, std::optional<double> fixed_step = {})
-      : fluid(settings(length, fixed_step)), plate(layers * rho), coupler(fluid, plate, {}), start_energy(energy()) {}
+      : fluid(settings(length, fixed_step)), plate(layers * rho), coupler(flow, plate, {}), start_energy(energy()) {}
 
   double energy() const {
     const sph::Ledger l = fluid.ledger();

@@ -34,6 +34,7 @@ struct Choice {
 struct Column {
   sph::Fluid fluid;
   fem::Structure structure;
+  Flow flow{fluid};
   Coupler coupler;
 
   static sph::Settings water(const Choice& s) {
@@ -73,7 +74,7 @@ struct Column {
     return settings;
   }
 
-  explicit Column(const Choice& s) : fluid(water(s)), structure(plate(s)), coupler(fluid, structure, coupling(s)) {}
+  explicit Column(const Choice& s) : fluid(water(s)), structure(plate(s)), coupler(flow, structure, coupling(s)) {}
 
   Coupler::Window run(double end) {
     Coupler::Window last;

@@ -57,7 +57,8 @@ TEST_P(Impact, WhatTheWaterLosesTheBlockGains) {
   const Drop s = drop(GetParam());
   Fluid fluid(s.water);
   solid::Solids solids(s.solids, s.water);
-  coupling::ParticleSystem system(fluid, solids, true);
+  coupling::Flow flow(fluid);
+  coupling::ParticleSystem system(flow, solids, true);
   const Vec3 start = fluid.ledger().momentum + solids.ledger().momentum;
   const Ledger first = fluid.ledger();
   long sub_steps = 0, steps = 0;
@@ -99,7 +100,8 @@ TEST_P(Impact, HeavyBlockIsARigidWall) {
       while (fluid.time() < 5e-6) fluid.step(fluid.step_limit().step);
     } else {
       solid::Solids solids(block.solids, s);
-      coupling::ParticleSystem system(fluid, solids, true);
+      coupling::Flow flow(fluid);
+      coupling::ParticleSystem system(flow, solids, true);
       while (fluid.time() < 5e-6) system.advance(1.0);
     }
     return fluid.at(Vec3(0.015, 0.015, 0.004)).pressure;
@@ -138,7 +140,8 @@ TEST(RingsAndSolids, WhatTheWaterLosesTheDiscGains) {
     const Drop s = drop_on_disc(scheme);
     Fluid fluid(s.water);
     solid::Solids solids(s.solids, s.water);
-    coupling::ParticleSystem system(fluid, solids, true);
+    coupling::Flow flow(fluid);
+    coupling::ParticleSystem system(flow, solids, true);
     const double start = fluid.ledger().momentum[1] + solids.ledger().momentum[1];
     const Ledger first = fluid.ledger();
     while (fluid.time() < 20e-6 * (1 - 1e-12)) system.advance(20e-6);
@@ -160,7 +163,8 @@ double unrest(Settings water, const solid::Body& solid, bool rings) {
   solids_settings.bodies = {solid};
   Fluid fluid(water);
   solid::Solids solids(solids_settings, water);
-  coupling::ParticleSystem system(fluid, solids, true);
+  coupling::Flow flow(fluid);
+  coupling::ParticleSystem system(flow, solids, true);
   while (fluid.time() < 20e-6) system.advance(1.0);
   double worst = 0;
   for (const double p : fluid.field("pressure")) worst = std::max(worst, std::abs(p / 1e9 - 1.0));
@@ -197,7 +201,8 @@ TEST(RingsAndSolids, NoSlipIsRefused) {
   const Drop s = drop_on_disc(SchemeName::riemann);
   Fluid fluid(s.water);
   solid::Solids solids(s.solids, s.water);
-  EXPECT_THROW(coupling::ParticleSystem(fluid, solids, false), std::invalid_argument);
+  coupling::Flow flow(fluid);
+  EXPECT_THROW(coupling::ParticleSystem(flow, solids, false), std::invalid_argument);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Column {
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
   bool slip = true, surface = false;  // of the coupling; solids by their wet faces
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
-  bool mirrored = true, gravity = false, pushed = false, held = false, landing = false, flying = false;
+  bool mirrored = true, obstacle = false, gravity = false, pushed = false, held = false, landing = false, flying = false;
   double half_width = 8, depth = 16;
   std::string walls = "free_slip";  // "none", "no_slip", "open below"
   std::string water = "\"water-tait\"", plate_material = "\"al-5083-h116\"";
@@ -68,6 +68,9 @@ void Column::describe_fluid(std::ostream& out) const {
       out << "material = \"petn\"\nburn = {model = \"programmed\", initiation = " << point(0, -0.5 * depth) << "}\n";
     else out << "material = {law = \"barotropic_gas\", rho0 = 1400, p0 = 1e8, gamma = 2}\n";
   }
+  if (obstacle)
+    out << "[[obstacles]]\nname = \"ball\"\nshape = {type = \"sphere\", radius = 0.0052, center = " << point(0, -0.5 * depth)
+        << "}\nmotion = \"free\"\ndensity = 2700\nvelocity = " << point(0, 1e4) << '\n';  // 10 m/s
   if (walls == "none") return;
   out << "[[walls]]\nname = \"duct\"\nshape = " << box(-depth, 40) << "\ncondition = \""
       << (walls == "no_slip" ? "no_slip" : "free_slip") << "\"\nfaces = {" << end("high") << " = \"open\"";
@@ -183,6 +186,7 @@ const std::vector<Feature>& features() {
        }},
       {"start", "burning", [](Column& c) { c.start = Start::burning; }},
       {"symmetry", "no_symmetry", [](Column& c) { c.mirrored = false; }},
+      {"obstacle", "free_ball", [](Column& c) { c.obstacle = true; }},
       {"gravity", "gravity", [](Column& c) { c.gravity = true; }},
       {"loads", "loads", [](Column& c) { c.pushed = true; }},
       {"supports", "held", [](Column& c) { c.held = true, c.scheme["courant"] = "0.03"; }},

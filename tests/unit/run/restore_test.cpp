@@ -97,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Cut{"wet_solids", "al_tube_sph/surface.toml", {{spacing, "0.005"}, {"solids.tube.spacing", "0.003175"}}},
                     Cut{"on_a_radius", "free_field/radial.toml", {{spacing, "1e-4"}}, 300},
                     Cut{"plane_wave", "taylor_plate", {{spacing, "0.002"}}, 12},
+                    Cut{"free_obstacle", "obstacles", {{spacing, "0.01"}}},
+                    Cut{"led_obstacle", "obstacles/piston.toml", {{"scheme.integrator", "\"ssp_rk3\""}}},
                     Cut{"total_lagrangian", "taylor_bar_sph", {{spacing, "0.0008"}}, 60},
                     Cut{"updated_lagrangian", "taylor_bar_sph/updated.toml", {{spacing, "0.0008"}}, 60},
                     Cut{"updated_rings", "al_sphere_impact/axisymmetric.toml", {{spacing, "0.002"}}, 60},

@@ -312,7 +312,41 @@ probe = "plate"
                                     profile,
                                     imploding,
                                     charge_in_a_funnel,
-                                    pool};
+                                    pool,
+                                    R"(title = "rigid bodies"
+end_time = 1e-4
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0, 0], high = [0.4, 0.4, 0.4]}
+material = "water-tait"
+[[obstacles]]
+name = "ball"
+shape = {type = "sphere", center = [0.1, 0.1, 0.1], radius = 0.05}
+motion = "free"
+condition = "free_slip"
+density = 500
+inertia = [1, 2, 2.5, 0.1, 0.2, 0.3]
+fixed = ["x", "rz"]
+velocity = [0, 1, 2]
+spin = [1, 2, 0]
+direction = [0, 1, 1]
+time = [0, 1e-4]
+force = [1e3, 2e3]
+[[obstacles]]
+name = "drum"
+shape = {type = "cylinder", axis = "y", center = [0.3, 0, 0.3], radius = 0.05, low = 0.1, high = 0.3}
+motion = "free"
+mass = 3
+[[obstacles]]
+name = "piston"
+shape = {type = "box", low = [-0.1, 0, 0], high = [0, 0.4, 0.4]}
+motion = "prescribed"
+direction = [1, 0, 0]
+time = [0, 1e-4]
+speed = [1, 2]
+)"};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
   for (const std::string& text : rich) {

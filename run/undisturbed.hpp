@@ -10,16 +10,15 @@
 
 namespace undex::run {
 
-struct Obstacle {
+struct Undisturbed {
   std::string name;                             ///< in words
   std::function<double(const Vec3&)> distance;  ///< from a place in space [m]; it changes by at most the way between two places
 };
 
-bool same_shape(const Primitive& one, const Primitive& other);
 /// The order of what is removed does not count.
 bool same_shape(const Shape& one, const Shape& other);
 
-/// Walls, bodies of fluid and surfaces of theirs that only one of the scenes has; structures and solids of either.
-std::vector<Obstacle> obstacles_between(const scene::Scene& scene, const scene::Scene& donor);
+/// Walls, bodies of fluid and surfaces of theirs that only one of the scenes has; structures, solids and rigid bodies of either.
+std::vector<Undisturbed> not_shared_by(const scene::Scene& scene, const scene::Scene& donor);
 
 }  // namespace undex::run

@@ -1,4 +1,4 @@
-#include "run/obstacles.hpp"
+#include "run/undisturbed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,32 +8,12 @@
 namespace undex::run {
 namespace {
 
-/// The numbers that make a primitive; a component that means nothing is zero.
-std::vector<double> numbers_of(Primitive shape) {
-  std::vector<double> numbers{double(shape.index())};
-  std::visit(
-      [&](auto& each) {
-        if constexpr (requires {
-                        each.axis;
-                        each.center;
-                      })
-          each.center[each.axis] = 0.0;
-        for_each_field(each, [&](const auto& member, const Key&) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(member)>, Vec3>)
-            numbers.insert(numbers.end(), member.begin(), member.end());
-          else numbers.push_back(double(member));
-        });
-      },
-      shape);
-  return numbers;
-}
-
 bool same_wall(const sph::Wall& one, const sph::Wall& other) {
   return same_shape(one.container, other.container) && one.faces == other.faces;
 }
 
 /// What the first scene has and the second has not.
-void add_of(const scene::Scene& scene, const scene::Scene& other, const std::string& whose, std::vector<Obstacle>& found) {
+void add_of(const scene::Scene& scene, const scene::Scene& other, const std::string& whose, std::vector<Undisturbed>& found) {
   const int dimension = scene.fluid.dimension;
   const auto surface = [&](const std::string& name, const Primitive& shape) {
     found.push_back({name + whose, [=](const Vec3& x) { return std::abs(signed_distance(shape, x, dimension)); }});
@@ -58,6 +38,9 @@ void add_of(const scene::Scene& scene, const scene::Scene& other, const std::str
   for (const solid::Body& solid : scene.solids.bodies)
     found.push_back({"solid '" + solid.name + "'" + whose,
                      [shape = solid.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
+  for (const coupling::Obstacle& obstacle : scene.obstacles)
+    found.push_back({"obstacle '" + obstacle.name + "'" + whose,
+                     [shape = obstacle.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
   if (!scene.structure) return;
   if (const auto shape = scene::structure_shape(scene.structure->mesh, scene.meridian)) {
     const bool whole = shape->built_in().has_value();
@@ -72,8 +55,6 @@ void add_of(const scene::Scene& scene, const scene::Scene& other, const std::str
 
 }  // namespace
 
-bool same_shape(const Primitive& one, const Primitive& other) { return numbers_of(one) == numbers_of(other); }
-
 bool same_shape(const Shape& one, const Shape& other) {
   if (!same_shape(one.base, other.base) || one.removed.size() != other.removed.size()) return false;
   return std::all_of(one.removed.begin(), one.removed.end(), [&](const Primitive& hole) {
@@ -82,8 +63,8 @@ bool same_shape(const Shape& one, const Shape& other) {
   });
 }
 
-std::vector<Obstacle> obstacles_between(const scene::Scene& scene, const scene::Scene& donor) {
-  std::vector<Obstacle> found;
+std::vector<Undisturbed> not_shared_by(const scene::Scene& scene, const scene::Scene& donor) {
+  std::vector<Undisturbed> found;
   add_of(scene, donor, "", found);
   add_of(donor, scene, " of the donor", found);
   return found;
