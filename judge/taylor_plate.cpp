@@ -232,7 +232,7 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
   metrics.emplace_back("impulse_acoustic_pa_s", theory.impulse());
   Verdict verdict;
   for (const std::string label : {"", "_1d"}) {
-    const Series& pressure = (label.empty() ? run : reference).pressure;
+    const Series& pressure = label.empty() ? run.pressure : reference.pressure;
     std::string why = fall_to_zero(pressure, given.peak).unknown;
     if (why.empty()) continue;
     if (pressure.empty()) why = "the scene has no wall probe with the pressure, at the plate's wet face";

@@ -36,8 +36,8 @@ struct PlateReference : PlateHistories {
   double first_void;  ///< when the water first cavitates [s]; NaN: it does not
 };
 
-/// Histories of the scene's wave and water against a rigid plate of the structure's mass per area, with the surroundings' pressure
-/// and the loads of the scene behind, to `end` [s]. `refinement` scales the number of cells.
+/// Histories of the scene's wave and water against a rigid plate of the structure's mass per area, with the pressure of the
+/// surroundings and the scene's loads behind, to `end` [s]. `refinement` scales the number of cells.
 PlateReference plate_in_one_dimension(const scene::Scene& scene, double end, int refinement = 1);
 
 }  // namespace undex::judge

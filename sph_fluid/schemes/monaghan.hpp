@@ -61,13 +61,14 @@ struct Monaghan {
                                WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     V closing;
-    const V more = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing) + weight.rise(i, pair);
-    add_wall_force(pair.F * (2 * i.p + more), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V viscous = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
+    const V rise = weight.rise(i, pair);
+    add_wall_force(pair.F * (2 * i.p + rise + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * m.approach * w.volume;
     si.compression += D;
-    si.heat += T(0.5) * more * D;
+    si.heat += T(0.5) * (rise + viscous) * D;
     si.closing = maximum(si.closing, closing);
-    return i.p + T(0.5) * more;
+    return i.p + T(0.5) * (rise + viscous);
   }
 
   UNDEX_INLINE static V filling_share(const State&, const State&) { return broadcast(T(1)); }

@@ -22,11 +22,12 @@ struct Paper : Monaghan<T> {
     const WallPair<V> m = wall_pair(i, w, pair);
     const V approach = T(0.5) * m.approach;  // of the particle and the wall itself
     V closing;
-    const V more = this->viscosity(approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing) + this->weight.rise(i, pair);
-    add_wall_force(pair.F * (2 * i.p + more), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V viscous = this->viscosity(approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
+    const V rise = this->weight.rise(i, pair);
+    add_wall_force(pair.F * (2 * i.p + rise + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * approach * w.volume;
     si.compression += D;
-    si.heat += (i.p + more) * D;
+    si.heat += (i.p + rise + viscous) * D;
     si.closing = maximum(si.closing, closing);
   }
 };
