@@ -35,6 +35,7 @@ void check(int dimension, const std::vector<Layer>& layers, const Lagrangian1DOp
     refuse(text("the Courant number must lie between 0 and 1, got ", options.courant));
   if (!(options.inner_mass >= 0 && options.outer_mass >= 0))
     refuse(text("the masses of plates must not be negative, got ", options.inner_mass, " and ", options.outer_mass, " kg/m^2"));
+  if (dimension > 1 && options.gravity != 0.0) refuse("gravity is not spherical or cylindrical");
   if (dimension > 1 && !(layers.front().inner >= 0)) refuse(text("radii begin at 0, got ", layers.front().inner, " m"));
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const Layer& layer = layers[k];
@@ -181,8 +182,11 @@ double Lagrangian1D::middle(int cell) const {
   return dimension_ == 2 ? std::sqrt(volume) : std::cbrt(volume);
 }
 
-double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound) const {
-  if ((outer ? outer_ : inner_) == Boundary::free) return outer ? options_.outer_pressure : options_.inner_pressure;
+double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound, double time) const {
+  if ((outer ? outer_ : inner_) == Boundary::free) {
+    if (!outer) return options_.inner_pressure;
+    return options_.outer_pressure + (options_.outer_load ? options_.outer_load(time) : 0.0);
+  }
   if (outer) return outer_start_pressure_ + rho * sound * (u - outer_start_velocity_);
   return inner_start_pressure_ - rho * sound * (u - inner_start_velocity_);
 }
@@ -252,6 +256,7 @@ void Lagrangian1D::solid_pressures(const Solid& solid, int begin, int end, const
     p[i] = materials::carried_pressure(solid, state.pressure, damage);
     c_[i] = std::sqrt(state.bulk_sound * state.bulk_sound + 4.0 / 3.0 * solid.shear_modulus / rho[i]);
     viscous_sound_[i] = damage >= materials::failed && p[i] <= 0.0 ? 0.0 : c_[i];  // as a void that closes
+    p[i] += options_.ambient;
   }
 }
 
@@ -311,13 +316,14 @@ void Lagrangian1D::warm(int end) {
     for (int i = blocks_[k].begin; i < std::min(blocks_[k].end, end); ++i) {
       const double opened = 1.0 / rho_new_[i] - 1.0 / rho_[i];
       const bool broken = solids_new_.damage[i] >= materials::failed;
+      const double p = p_[i] - options_.ambient, p_new = p_new_[i] - options_.ambient;
       const materials::Warming warming =
           materials::warming(*solid, {.before = 1.0 / rho_[i],
                                       .after = 1.0 / rho_new_[i],
                                       .energy = e_[i],
-                                      .pressure_work = -0.5 * (p_[i] + p_new_[i]) * opened,
+                                      .pressure_work = -0.5 * (p + p_new) * opened,
                                       .dissipated = -0.5 * (q_[i] + q_new_[i]) * opened,
-                                      .parted = materials::is_parted(*solid, std::min(p_[i], p_new_[i]), broken)});
+                                      .parted = materials::is_parted(*solid, std::min(p, p_new), broken)});
       solids_new_.temperature[i] = warming(solids_new_.temperature[i]);
     }
   }
@@ -338,14 +344,14 @@ double Lagrangian1D::stable_step() const {
   double stiffest = 0.0;  // acceleration over width [1/s^2]
   for (int i = 0; i < end; ++i) {
     const double total = p_[i] + q_[i];
-    const double below =
-        i > 0 ? p_[i - 1] + q_[i - 1] : (inner_ == Boundary::rigid ? total : outside_pressure(false, u_[0], rho_[0], c_[0]));
+    const double below = i > 0 ? p_[i - 1] + q_[i - 1]
+                               : (inner_ == Boundary::rigid ? total : outside_pressure(false, u_[0], rho_[0], c_[0], time_));
     double width = r_[i + 1] - r_[i];
     if (i > 0) width = std::min(width, r_[i] - r_[i - 1]);
     stiffest = std::max(stiffest, mean_area(r_[i], r_[i]) * std::abs(total - below) / (node_mass_[i] * width));
   }
   if (end == cells() && outer_ != Boundary::rigid) {
-    const double above = outside_pressure(true, u_[end], rho_[end - 1], c_[end - 1]);
+    const double above = outside_pressure(true, u_[end], rho_[end - 1], c_[end - 1], time_);
     stiffest = std::max(stiffest, mean_area(r_[end], r_[end]) * std::abs(p_[end - 1] + q_[end - 1] - above) /
                                       (node_mass_[end] * (r_[end] - r_[end - 1])));
   }
@@ -366,8 +372,8 @@ void Lagrangian1D::step(double dt) {
   const bool solid = !solids_.deviator.empty();
 
   // Total pressures at the two ends outside of the mesh, at the start of the step.
-  double below = held_inner ? 0.0 : outside_pressure(false, u_[0], rho_[0], c_[0]);
-  double above = held_outer ? 0.0 : outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1]);
+  double below = held_inner ? 0.0 : outside_pressure(false, u_[0], rho_[0], c_[0], time_);
+  double above = held_outer ? 0.0 : outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1], time_);
   const auto accelerate = [&](const auto& total, double front_speed) {
     for (int i = 0; i < node_end; ++i) {
       const double inside = i > 0 ? total(i - 1) : below, outside = i < n ? total(i) : above;
@@ -376,6 +382,8 @@ void Lagrangian1D::step(double dt) {
     if (solid)
       for (int i = 0; i < node_end; ++i)
         u_new_[i] += dt / node_mass_[i] * ((i > 0 ? push_out_[i - 1] : 0.0) + (i < n ? push_in_[i] : 0.0));
+    if (options_.gravity != 0.0)
+      for (int i = 0; i < node_end; ++i) u_new_[i] += dt * options_.gravity;
     if (held_inner) u_new_[0] = 0.0;
     if (held_outer && node_end > n) u_new_[n] = 0.0;
     if (front_is_fitted()) move_front(dt, front_speed, total(front_cell_));
@@ -415,8 +423,8 @@ void Lagrangian1D::step(double dt) {
   if (solid) advance_deviators(cell_end, dt);
   pressures(0, cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
-  if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0]));
-  if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1]));
+  if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0], time_ + dt));
+  if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1], time_ + dt));
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_new_[i]);
   const auto total_mean = [&](int i) { return 0.5 * (p_[i] + q_[i] + p_new_[i] + q_new_[i]); };
   if (solid) deviator_forces(cell_end, 0.5, r_new_);
@@ -425,6 +433,8 @@ void Lagrangian1D::step(double dt) {
   healthy();
   if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
   if (!held_outer && node_end > n) boundary_work_ += above * area_[n] * (0.5 * dt * (u_[n] + u_new_[n]));
+  if (options_.gravity != 0.0)
+    for (int i = 0; i < node_end; ++i) boundary_work_ -= node_mass_[i] * options_.gravity * (0.5 * dt * (u_[i] + u_new_[i]));
   if (solid) {
     advance_deviators(cell_end, dt);
     warm(cell_end);
@@ -481,7 +491,7 @@ void Lagrangian1D::update_active() {
     if (u_[node] != 0.0) break;
     if (node == n) {
       if (outer_ == Boundary::rigid) continue;
-      const double over = p_[n - 1] + q_[n - 1] - outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1]);
+      const double over = p_[n - 1] + q_[n - 1] - outside_pressure(true, u_[n], rho_[n - 1], c_[n - 1], time_);
       if (options_.front_width ? std::abs(over) > options_.held_pressure : over != 0.0) break;
     } else if (node > 0) {
       const double inside = p_[node - 1] + q_[node - 1], outside = p_[node] + q_[node];

@@ -3,7 +3,7 @@
 //
 // Staggered mesh: radius r and velocity u live on nodes, density, specific energy e and pressure p in cells
 // of fixed mass m. With A the area of a node's face, P = p + q and M a node's mass (half of each neighbour's),
-//   M du/dt = A (P_inside - P_outside),   m de/dt = -P dV/dt,   dr/dt = u.
+//   M du/dt = A (P_inside - P_outside) + M g,   m de/dt = -P dV/dt,   dr/dt = u      (g: gravity, planar alone).
 // The energy of a cell is changed by the very forces that move its two nodes, over the mean of their old and
 // new velocities; so kinetic plus internal energy keeps its value to round-off, whatever the step (the
 // "compatible" form of E. J. Caramana, D. E. Burton, M. J. Shashkov, P. P. Whalen, J. Comput. Phys. 146,
@@ -78,6 +78,11 @@ struct Lagrangian1DOptions {
   /// Mass per area [kg/m^2] that rides on a free boundary: a rigid plate, at rest at the start, with the outside pressure
   /// (zero: vacuum) behind it.
   double inner_mass = 0.0, outer_mass = 0.0;
+  /// What acts on a free outer end beside `outer_pressure`, on its plate say, over time [Pa].
+  std::function<double(double time)> outer_load = {};
+  double gravity = 0.0;  ///< outward, on everything [m/s^2]; planar alone
+  /// The surroundings' pressure: what solids are without stress under [Pa].
+  double ambient = 0.0;
   /// Set: the first wave's front in a uniform fluid at rest is followed as a discontinuity (fitted_front.cpp), and cells begin at
   /// it with that width [m]. Empty: it is smeared over some cells, as every other shock.
   std::function<double(double radius)> front_width = {};
@@ -186,7 +191,7 @@ class Lagrangian1D {
   double internal_energy() const;  ///< [J]
   /// Kinetic (plates included) plus internal [J]. total_energy() + boundary_work() is conserved to round-off.
   double total_energy() const { return kinetic_energy() + internal_energy(); }
-  /// Work done on what lies outside of free and transmitting boundaries since the start [J].
+  /// Work done on what lies outside of free and transmitting boundaries, and against gravity, since the start [J].
   double boundary_work() const { return boundary_work_; }
   /// Share of the internal energy that is heat left by shocks in barotropic layers [J].
   double barotropic_heat() const;
@@ -231,7 +236,7 @@ class Lagrangian1D {
   double volume_to(double radius) const;           // enclosed [m^3]
   double mean_area(double from, double to) const;  // swept volume over distance [m^2]
   double middle(int cell) const;                   // radius that halves the cell's volume [m]
-  double outside_pressure(bool outer, double u, double rho, double sound) const;
+  double outside_pressure(bool outer, double u, double rho, double sound, double time) const;
   /// Pressure and artificial pressure of the cells from `begin` to below `end`.
   void pressures(int begin, int end, double time, const std::vector<double>& r, const std::vector<double>& u,
                  const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);

@@ -105,6 +105,9 @@ std::string describe(const scene::Scene& given) {
                                 : format("%d dimension%s", scene.fluid.dimension, scene.fluid.dimension == 1 ? "" : "s");
   std::string text = format("%s: %s\n%s, symmetry planes: %s, to %.6g us\n", scene.name.c_str(), scene.title.c_str(),
                             space.c_str(), planes.empty() ? "none" : planes.c_str(), scene.end_time * 1e6);
+  const Vec3& g = scene.fluid.gravity;
+  if (!g.isZero()) text += format("gravity: (%.6g, %.6g, %.6g) m/s^2\n", g[0], g[1], g[2]);
+  if (const double p = scene.fluid.surroundings.pressure; p > 0) text += format("surroundings: %.6g Pa\n", p);
 
   text += expect_room(scene) + "\n";
   const auto before = Clock::now();

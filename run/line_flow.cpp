@@ -75,6 +75,7 @@ exact::Lagrangian1D mesh_of(const scene::Scene& scene, const scene::Line& line) 
   options.held_pressure = line.held;
   if (follows) options.front_width = [line, spacing](double radius) { return line.front_width(radius, spacing); };
   options.outer_pressure = line.outside_pressure;
+  options.inner_pressure = options.ambient = scene.fluid.surroundings.pressure;
   const auto end = [&](int which) { return line.closed[which] ? exact::Boundary::rigid : exact::Boundary::free; };
   try {
     return {scene.geometry == scene::Geometry::spherical ? 3 : 1, std::move(layers), end(0), end(1), options};
@@ -89,6 +90,7 @@ LineFlow::LineFlow(const scene::Scene& scene)
     : spherical_(scene.geometry == scene::Geometry::spherical),
       line_(scene::line_of(scene)),
       spacing_(scene.fluid.lattice.spacing),
+      around_(scene.fluid.surroundings.pressure),
       mesh_(mesh_of(scene, line_)) {
   for (const scene::LineLayer& layer : line_.layers)
     material_.push_back(double(layer.index + (layer.is_solid ? scene.fluid.bodies.size() : 0)));
@@ -278,7 +280,7 @@ std::function<MaterialPoint()> LineFlow::in_solid(const Vec3& start) const {
     point.displacement = (now - place) * along;
     point.position = start + point.displacement;
     point.velocity = (u[cell] + weight * (u[cell + 1] - u[cell])) * along;
-    const double p = mesh_.cell_pressure()[cell], s = mesh_.solids().deviator[cell];
+    const double p = mesh_.cell_pressure()[cell] - around_, s = mesh_.solids().deviator[cell];
     const Mat3 radial = along * along.transpose();
     point.stress = (s - p) * radial + (-0.5 * s - p) * (Mat3::Identity() - radial);
     point.plastic_strain = mesh_.solids().plastic_strain[cell];

@@ -75,6 +75,7 @@ class LineFlow {
   bool spherical_;
   scene::Line line_;
   double spacing_;
+  double around_;                 // the surroundings' pressure, under which solids are without stress [Pa]
   std::vector<double> material_;  // number of each layer's body; solids count on after the bodies
   exact::Lagrangian1D mesh_;
   // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge

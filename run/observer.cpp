@@ -5,12 +5,13 @@
 namespace undex::run {
 namespace {
 
-std::vector<output::Column> energy_columns(bool gravity, bool obstacles) {
+std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool obstacles) {
   std::vector<output::Column> all{{"time", "s"}};
   for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
                            "structure_viscous", "interface_work_given", "interface_work_received", "external"})
     all.push_back({name, "J"});
   if (gravity) all.push_back({"gravity", "J"});
+  if (surroundings) all.push_back({"surroundings", "J"});
   if (obstacles) all.push_back({"obstacle_kinetic", "J"});
   all.push_back({"total", "J"});
   all.push_back({"error", ""});
@@ -38,8 +39,12 @@ output::LastField last_field(const Simulation& simulation, const std::string& na
 
 }  // namespace
 
-EnergyHistory::EnergyHistory(const std::filesystem::path& folder, bool gravity, bool obstacles, bool goes_on)
-    : gravity_(gravity), obstacles_(obstacles), path_(folder / "energy.csv"), samples_(energy_columns(gravity, obstacles)) {
+EnergyHistory::EnergyHistory(const std::filesystem::path& folder, const scene::Scene& scene, bool goes_on)
+    : gravity_(!scene.fluid.gravity.isZero()),
+      surroundings_(scene.fluid.surroundings.pressure > 0),
+      obstacles_(!scene.obstacles.empty()),
+      path_(folder / "energy.csv"),
+      samples_(energy_columns(gravity_, surroundings_, obstacles_)) {
   if (!goes_on) history_.emplace(path_, samples_.columns);
 }
 
@@ -53,6 +58,7 @@ void EnergyHistory::sample(const Simulation& simulation) {
   std::vector<double> row{simulation.time(), e.kinetic, e.internal,   e.dissipated,    e.structure_kinetic, e.elastic,
                           e.plastic,         e.viscous, e.work_given, e.work_received, e.external};
   if (gravity_) row.push_back(e.gravity);
+  if (surroundings_) row.push_back(e.surroundings);
   if (obstacles_) row.push_back(e.obstacle_kinetic);
   row.insert(row.end(), {e.total(), e.error()});
   history_->append(row);
@@ -63,7 +69,7 @@ Observer::Observer(const scene::Scene& scene, const Simulation& simulation, cons
     : scene_(scene),
       simulation_(simulation),
       probes_(scene, simulation, folder, goes_on),
-      energy_(folder, !scene.fluid.gravity.isZero(), !scene.obstacles.empty(), goes_on),
+      energy_(folder, scene, goes_on),
       snapshots_(scene, simulation, folder, goes_on),
       next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "run/rest.hpp"
 #include "scene/revolution.hpp"
 #include "sph_fluid/lattice.hpp"
 
@@ -93,6 +94,12 @@ ParticleState::ParticleState(const scene::Scene& scene, const Simulation& simula
     signal[b] = std::min(0.01, threshold / (at_rest[b] * sound[b] * sound[b]));
     step[b] = signal[b] * sph::smoothing_length(scene.fluid, one.spacing.value_or(spacing_));
   }
+  std::vector<std::function<Rest(const Vec3&)>> column(count);  // of bodies that are hydrostatic
+  for (std::size_t b = 0; b < count; ++b)
+    if (scene.fluid.bodies[b].level) column[b] = rest_of(scene.fluid.bodies[b], scene);
+  const auto in_space = [&](const Vec3& place) {
+    return meridian_ ? meridian_->place_in_space(place, meridian_->outward()) : place;
+  };
   const int copies = scene::mirror_copies(scene);
   std::vector<Vec3> momentum(count, Vec3::Zero());
   for (std::size_t i = 0; i < m.size(); ++i) {
@@ -106,7 +113,8 @@ ParticleState::ParticleState(const scene::Scene& scene, const Simulation& simula
     if (meridian_) p.volume /= 2.0 * std::numbers::pi * std::max(p.x[0], 1e-6 * spacing_);
     p.h = h[i] * spacings / scene.fluid.numerics.eta;
     p.image = false;
-    p.moved = p.v.norm() > signal[b] * sound[b] || std::abs(p.rho - at_rest[b]) > signal[b] * at_rest[b] ||
+    const double rest = column[b] ? column[b](in_space(p.x)).density : at_rest[b];
+    p.moved = p.v.norm() > signal[b] * sound[b] || std::abs(p.rho - rest) > signal[b] * rest ||
               (p.x - start[std::size_t(id[i])]).norm() > step[b];
     bodies_[b].moved = bodies_[b].moved || p.moved;
     bodies_[b].particles.push_back(p);

@@ -1,7 +1,6 @@
 #include "run/plane_wave_start.hpp"
 
 #include <cstdio>
-#include <functional>
 #include <stdexcept>
 
 #include "core/errors.hpp"
@@ -30,28 +29,17 @@ exact::PlaneWave plane_wave(const scene::Scene& scene) {
   }
 }
 
-namespace {
-
-/// Of a body that is hydrostatic under gravity; empty where it is uniform.
-std::function<double(const Vec3&)> density_at_rest(const sph::Body& body, const sph::Settings& fluid) {
-  if (!body.level || fluid.gravity.isZero()) return {};
-  return [column = sph::hydrostatic_column(body, fluid.gravity, fluid.dimension), level = *body.level,
-          down = Vec3(fluid.gravity.normalized())](const Vec3& x) { return column.density((x - level).dot(down)); };
-}
-
-}  // namespace
-
 std::string begin_with_plane_wave(scene::Scene& scene) {
   const scene::Start::Wave& given = scene.start.wave;
   const exact::PlaneWave wave = plane_wave(scene);
   const double way = given.upward ? 1.0 : -1.0;
   sph::Body& body = scene.fluid.bodies[wave_body(scene)];
   auto field = std::make_shared<sph::StartField>();
-  field->state = [=, at_rest = density_at_rest(body, scene.fluid)](const Vec3& x, double spacing) {
+  field->rest_pressure = wave.rest().pressure;
+  field->state = [=](const Vec3& x, double spacing) {
     const double behind = way * (given.front - x[given.axis]);
     const exact::PlaneWaveState mean = wave.mean(behind - 0.5 * spacing, behind + 0.5 * spacing);
-    const double below = at_rest ? at_rest(x) - wave.rest().density : 0.0;  // what the weight of the fluid above adds
-    return sph::StartState{mean.density + below, mean.energy, way * mean.velocity * Vec3::Unit(given.axis)};
+    return sph::StartState{mean.density, mean.energy, way * mean.velocity * Vec3::Unit(given.axis)};
   };
   body.start = field;
 

@@ -9,6 +9,7 @@
 #include "run/donor.hpp"
 #include "run/undisturbed.hpp"
 #include "run/particle_state.hpp"
+#include "run/rest.hpp"
 #include "run/spherical_start.hpp"
 #include "run/spherical_state.hpp"
 #include "scene/numbers.hpp"
@@ -71,8 +72,13 @@ class Pairing {
     if (donor_.geometry == scene::Geometry::plane)
       refuse("start.from", "the donor is a plane flow, whose momentum is one per area; take an axisymmetric or 3D donor");
     if (donor_.fluid.bodies.empty()) refuse("start.from", "the donor has no fluid");
-    if (!donor_.fluid.gravity.isZero()) refuse("start.from", "gravity acts in the donor; begin from one without");
     const bool round = donor_.geometry == scene::Geometry::spherical;
+    if (!round && donor_.fluid.gravity != scene_.fluid.gravity)
+      refuse("gravity",
+             "the donor has another gravity, and its water is at rest under other pressures; give both scenes one "
+             "gravity, and their bodies one level");
+    if (!round && donor_.fluid.surroundings.pressure != scene_.fluid.surroundings.pressure)
+      refuse("surroundings.pressure", "the donor has other surroundings; give both scenes one pressure");
     if (round && scene_.fluid.dimension != 3)
       refuse("dimension", "a spherical donor is laid over three dimensions, or a meridian of them");
     if (scene_.meridian && !round && !donor_.meridian)
@@ -119,10 +125,25 @@ class Pairing {
       refuse(path + ".material", "'" + body.name + "' is of " + body.material.name + ", and in the donor of " +
                                      there.material.name + ", or of other constants; take one material in both");
     const auto differ = [](double one, double other) { return std::abs(one - other) > 1e-9 * std::abs(other); };
+    if (body.level || there.level) return alike_under_gravity(body, there);
     if (differ(start_density(body), start_density(there)) || differ(start_energy(body), start_energy(there)))
       refuse(path, "'" + body.name + "' begins at " + scene::rounded(start_density(body)) + " kg/m^3 and " +
                        scene::rounded(start_energy(body)) + " J/kg, and in the donor at " + scene::rounded(start_density(there)) +
                        " and " + scene::rounded(start_energy(there)) + "; give both scenes the same state at time zero");
+  }
+
+  /// A spherical donor has the pressure of its middle, one in particles the same column.
+  void alike_under_gravity(const sph::Body& body, const sph::Body& there) const {
+    const bool round = donor_.geometry == scene::Geometry::spherical;
+    const Vec3 place = round ? scene::line_of(donor_).center : place_of_pressure(body, scene_);
+    const double here = rest_of(body, scene_)(place).pressure, in_donor = rest_of(there, donor_)(place).pressure;
+    const bool same = std::abs(here - in_donor) <= 1e-6 * std::abs(here) && bool(there.level) != round;
+    if (!same)
+      refuse("bodies." + body.name + ".level",
+             "'" + body.name + "' has " + scene::rounded(here) + " Pa " + (round ? "at the donor's middle" : "at its level") +
+                 ", and in the donor " + scene::rounded(in_donor) +
+                 (round ? " everywhere; give the donor the pressure of its middle's depth"
+                        : (there.level ? "; give both the same level and pressure" : " everywhere; give both the same level")));
   }
 
   const scene::Scene& scene_;
@@ -203,7 +224,8 @@ class RunStart {
   /// What the donor does not have must rest until the particles take over.
   void scene_at_rest() const {
     std::vector<std::size_t> in_motion;
-    double largest = -1, rest = 0;
+    double largest = -1;
+    const sph::Body* medium = nullptr;
     for (std::size_t b = 0; b < partner_.size(); ++b) {
       if (!partner_[b]) continue;
       in_motion.push_back(b);
@@ -211,9 +233,9 @@ class RunStart {
       const double size = scene::kept_volume(body.shape, scene_);
       if (size <= largest) continue;
       largest = size;
-      rest = start_pressure(body);
+      medium = &body;
     }
-    require_rest(scene_, in_motion, rest);
+    require_rest(scene_, in_motion, *medium);
   }
 
   // ---- Until when -------------------------------------------------------------------------------------------------------
@@ -353,14 +375,18 @@ class RunStart {
       const std::size_t d = *partner_[b];
       const BodyTotals& totals = state->totals(d);
       auto field = std::make_shared<sph::StartField>();
-      const sph::StartState at_rest{start_density(body), start_energy(body), Vec3::Zero()};
-      field->state = [=](const Vec3& x, double spacing) { return in_donor(x) ? state->state(d, x, spacing, at_rest) : at_rest; };
+      field->state = [=, at = rest_of(body, scene_)](const Vec3& x, double spacing) {
+        const Rest rest = at(x);
+        const sph::StartState at_rest{rest.density, rest.energy, Vec3::Zero()};
+        return in_donor(x) ? state->state(d, x, spacing, at_rest) : at_rest;
+      };
       field->covers = [=](const Vec3& x) { return owner(x) == b; };
       field->box = box;
       const bool whole = same_shape(body.shape, donor->fluid.bodies[d].shape);
-      field->mass = whole ? share * totals.mass : at_rest.density * scene::kept_volume(body.shape, scene_);
+      const MeanRest mean = mean_rest(body, scene_);
+      field->mass = whole ? share * totals.mass : mean.density * scene::kept_volume(body.shape, scene_);
       field->kinetic_energy = share * totals.kinetic;
-      field->internal_energy = share * totals.internal + (field->mass - share * totals.mass) * rest_energy(body);
+      field->internal_energy = share * totals.internal + (field->mass - share * totals.mass) * mean.energy;
       field->momentum = share * totals.momentum;
       field->exact = true;
       body.start = field;

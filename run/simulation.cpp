@@ -166,6 +166,7 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
 void Simulation::take_start(const scene::Scene& scene) {
   balanced_ = balanced_axes(scene);
   gravity_ = scene.fluid.gravity;
+  surrounded_ = scene.fluid.surroundings.pressure > 0;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
             !scene.structure;
   start_time_ = time();
@@ -210,7 +211,7 @@ EnergyBalance Simulation::energy() const {
     e.structure_kinetic = copies_ * l.solid_kinetic;
     e.elastic = copies_ * l.elastic;
     e.plastic = copies_ * l.plastic;
-    e.external = copies_ * l.external;
+    (surrounded_ ? e.surroundings : e.external) = copies_ * l.external;
   }
   if (fluid_) {
     const sph::Ledger l = fluid_->ledger();
@@ -219,6 +220,7 @@ EnergyBalance Simulation::energy() const {
     e.dissipated = copies_ * l.dissipated;
     e.work_given = copies_ * l.wall_work;
     e.gravity = copies_ * l.gravity;
+    e.surroundings = copies_ * l.surroundings;
   }
   for (const auto& body : bodies_) {
     const BodyLedger l = body->ledger();
@@ -238,7 +240,7 @@ EnergyBalance Simulation::energy() const {
     e.gravity += copies_ * l.gravity;
   }
   e.start = start_energy_;
-  e.scale = std::max({std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity),
+  e.scale = std::max({std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), std::abs(e.surroundings),
                       e.kinetic + e.structure_kinetic + e.obstacle_kinetic});
   return e;
 }

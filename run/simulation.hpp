@@ -25,13 +25,14 @@ struct EnergyBalance {
   double structure_kinetic = 0, elastic = 0, plastic = 0, viscous = 0;  // structure, or solids in particles
   double obstacle_kinetic = 0;                                          // free rigid bodies
   double work_given = 0, work_received = 0;                             // across the interface
-  double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids, of what drives or leads rigid
-                        // bodies; the interface's is not in it
-  double gravity = 0;   // its work on everything
-  double start = 0;     // sum at the start
+  double external = 0;      // work of prescribed loads on the structure, of rigid planes on solids, of what drives or leads rigid
+                            // bodies; the interface's is not in it
+  double gravity = 0;       // its work on everything
+  double surroundings = 0;  // work of their pressure on the fluid
+  double start = 0;         // sum at the start
   double total() const {
     return kinetic + internal + dissipated + structure_kinetic + obstacle_kinetic + elastic + plastic + viscous - external -
-           gravity;
+           gravity - surroundings;
   }
   double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
@@ -111,6 +112,7 @@ class Simulation {
   Step last_;
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   Vec3 gravity_ = Vec3::Zero();
+  bool surrounded_ = false;  // does anything press from outside?
   double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;
   double least_scale_ = 0;          // of energies: what pressure and rounding at the start stand for [J]
   std::array<bool, 3> balanced_{};  // axes along which all impulses are booked

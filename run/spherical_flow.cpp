@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "run/rest.hpp"
 
 namespace undex::run {
 namespace {
@@ -14,18 +15,22 @@ namespace {
 
 const Sphere& sphere_of(const sph::Body& charge) { return std::get<Sphere>(charge.shape.base); }
 
-exact::Layer layer_of(const sph::Body& body, double inner, double outer, int cells) {
+exact::Layer layer_of(const sph::Body& body, double density, double inner, double outer, int cells) {
   exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer, .cells = cells};
-  layer.density = start_density(body);
+  layer.density = density;
   layer.energy = start_energy(body);
   return layer;
 }
 
-std::vector<exact::Layer> layers_of(const sph::Body& charge, const sph::Body& medium, double outer, int charge_cells) {
+/// Under gravity the medium is all as it is at the charge's depth.
+std::vector<exact::Layer> layers_of(const scene::Scene& scene, const sph::Body& charge, const sph::Body& medium, double outer,
+                                    int charge_cells) {
   const double radius = sphere_of(charge).radius, cell = radius / charge_cells, length = outer - radius;
   // w(r) = w (a + r)/(2 a) sums up to `length` in so many cells.
   const int cells = std::max(2, int(std::lround(2.0 * charge_cells * std::log1p(length / (2.0 * radius)))));
-  std::vector<exact::Layer> layers{layer_of(charge, 0.0, radius, charge_cells), layer_of(medium, radius, outer, cells)};
+  const double at_depth = rest_of(medium, scene)(sphere_of(charge).center).density;
+  std::vector<exact::Layer> layers{layer_of(charge, start_density(charge), 0.0, radius, charge_cells),
+                                   layer_of(medium, at_depth, radius, outer, cells)};
   if (cell < length / cells) layers[1].ratio = exact::grading(length, cells, cell);
   if (charge.burn && !charge.burn->instantaneous) {
     layers[0].burn = charge.burn;
@@ -78,7 +83,7 @@ SphericalFlow::SphericalFlow(const scene::Scene& scene, double outer, int charge
 SphericalFlow::SphericalFlow(const scene::Scene& scene, std::size_t charge, double outer, int charge_cells)
     : charge_radius_(sphere_of(scene.fluid.bodies[charge]).radius),
       charge_cell_(charge_radius_ / charge_cells),
-      mesh_(3, layers_of(scene.fluid.bodies[charge], scene.fluid.bodies[medium_of(scene, charge)], outer, charge_cells),
+      mesh_(3, layers_of(scene, scene.fluid.bodies[charge], scene.fluid.bodies[medium_of(scene, charge)], outer, charge_cells),
             exact::Boundary::rigid, exact::Boundary::transmitting),
       threshold_(1e6),
       merged_at_(charge_radius_) {

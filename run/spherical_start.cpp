@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "run/rest.hpp"
 #include "run/spherical_flow.hpp"
 #include "run/spherical_state.hpp"
 #include "scene/numbers.hpp"
@@ -19,6 +20,20 @@ constexpr int cells_in_charge = 250;
 [[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
   throw SceneError(scene.file.string(), {scene.places.finding("start.kind", std::string("start.kind = \"") +
                                                                                 word_of(scene.start.kind) + "\": " + why)});
+}
+
+/// The least and the largest pressure [Pa] of a body at rest.
+std::pair<double, double> pressures_at_rest(const sph::Body& body, const scene::Scene& scene) {
+  const auto at_rest = rest_of(body, scene);
+  const Bounds box = bounds(body.shape, scene.fluid.dimension);
+  std::pair range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 x = Vec3::Zero();
+    for (int a = 0; a < scene.fluid.dimension; ++a) x[a] = corner >> a & 1 ? box.high[a] : box.low[a];
+    const double p = at_rest(x).pressure;
+    range = {std::min(range.first, p), std::max(range.second, p)};
+  }
+  return range;
 }
 
 bool same_sphere(const Primitive& shape, const Sphere& sphere) {
@@ -65,6 +80,19 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
   if (last_front <= sphere.radius)
     refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
   return {index, sphere, share.value(), obstacle, last_front};
+}
+
+/// Flows in a medium of one rest only are laid beside each other.
+void one_depth(const scene::Scene& scene, const std::vector<std::size_t>& charges, const sph::Body& medium) {
+  const auto at_rest = rest_of(medium, scene);
+  const auto pressure = [&](std::size_t charge) {
+    return at_rest(std::get<Sphere>(scene.fluid.bodies[charge].shape.base).center).pressure;
+  };
+  for (const std::size_t charge : charges)
+    if (std::abs(pressure(charge) - pressure(charges.front())) > 1e-3 * std::abs(pressure(charges.front())) + 1.0)
+      refuse(scene, "'" + scene.fluid.bodies[charges.front()].name + "' and '" + scene.fluid.bodies[charge].name +
+                        "' lie in water under other pressures; put them at one depth, name one by start.body, or take "
+                        "start.kind = \"plain\"");
 }
 
 /// The room left between the waves of two charges [m].
@@ -123,8 +151,9 @@ double start_pressure(const sph::Body& body) {
   return std::visit([&](const auto& law) { return law.evaluate(rho, energy).pressure; }, body.material.law);
 }
 
-void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, double rest) {
-  const auto is_rest = [&](double p) { return std::abs(p - rest) <= 1e-3 * std::abs(rest) + 1.0; };
+void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, const sph::Body& medium) {
+  const auto at_rest = rest_of(medium, scene);
+  const auto is_rest = [](double p, double rest) { return std::abs(p - rest) <= 1e-3 * std::abs(rest) + 1.0; };
   const std::string remedy =
       " until the particles take over, for only the charge's flow is computed; take start.kind = \"plain\"";
   const std::vector<sph::Body>& bodies = scene.fluid.bodies;
@@ -134,8 +163,8 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
       refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
     if (std::find(in_motion.begin(), in_motion.end(), b) != in_motion.end()) continue;
     if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
-    const double p = start_pressure(body);
-    if (!is_rest(p))
+    const double p = start_pressure(body), rest = at_rest(place_of_pressure(body, scene)).pressure;
+    if (!is_rest(p, rest))
       refuse(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium at " + scene::rounded(rest) +
                         " Pa, but all else must stay at rest" + remedy);
   }
@@ -150,12 +179,15 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
   if (!scene.structure) return;
   if (scene.structure->initial_velocity.norm() > 0)
     refuse(scene, "the structure must be at rest, but it has a velocity; take start.kind = \"plain\"");
+  // The wet face has what the medium has beyond the surroundings.
+  const auto [least, most] = pressures_at_rest(medium, scene);
+  const double around = scene.fluid.surroundings.pressure;
   for (const fem::PressureLoad& load : scene.structure->loads)
     for (const double p : load.pressure)
-      if (p != 0 && !is_rest(p))
+      if (p != 0 && !is_rest(std::clamp(p, least - around, most - around), p))
         refuse(scene, "a load of " + scene::rounded(p) + " Pa acts on the structure's face '" + load.face +
-                          "', which is neither 0 nor the medium's " + scene::rounded(rest) +
-                          " Pa, but all else must stay at rest" + remedy);
+                          "', which is neither 0 nor the medium's " + scene::rounded(least - around) + " Pa" +
+                          (around > 0 ? " beyond the surroundings" : "") + ", but all else must stay at rest" + remedy);
 }
 
 std::string begin_spherically(scene::Scene& scene, StartNews news) {
@@ -169,7 +201,8 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
                         "' lie in different bodies; name one by start.body, or take start.kind = \"plain\"");
   std::vector<std::size_t> in_motion = indices;
   in_motion.push_back(medium);
-  require_rest(scene, in_motion, start_pressure(fluid.bodies[medium]));
+  require_rest(scene, in_motion, fluid.bodies[medium]);
+  one_depth(scene, indices, fluid.bodies[medium]);
   if (scene.start.time && *scene.start.time >= scene.end_time) refuse(scene, "end_time comes before the start");
 
   const double reach = sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing);

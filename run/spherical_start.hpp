@@ -18,8 +18,8 @@ double start_pressure(const sph::Body& body);
 bool moves_by_itself(const coupling::Obstacle& obstacle);
 
 /// Throws SceneError, as the scene's start.kind, where anything would not stay as it is until the particles take over: all but
-/// the bodies in motion (indices) must be at rest under the pressure `rest` [Pa].
-void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, double rest);
+/// the bodies in motion (indices) must be at rest under the pressure that `medium` has at rest.
+void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_motion, const sph::Body& medium);
 
 /// Computes the one-dimensional flows of the scene's charges and puts them into scene.fluid: the charges' shapes grow to their
 /// present radii, charges and medium get start fields, and the start time is set. Returns one line that says what was

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/rest.hpp"
 #include "scene/revolution.hpp"
 
 namespace undex::run {
@@ -56,12 +57,12 @@ bool is_layer(const sph::Body& body, const Part& part) {
   return body.shape.removed.size() == 1 && is_sphere(body.shape.removed.front(), part.center, layer.inner);
 }
 
-/// Of what the scene keeps of a body at rest [kg].
-double rest_mass(const sph::Body& body, const scene::Scene& scene) {
+/// Of what the scene keeps of a body at rest with that density [kg].
+double rest_mass(const sph::Body& body, double density, const scene::Scene& scene) {
   const auto* sphere = std::get_if<Sphere>(&body.shape.base);
-  if (!sphere || !body.shape.removed.empty()) return start_density(body) * scene::kept_volume(body.shape, scene);
+  if (!sphere || !body.shape.removed.empty()) return density * scene::kept_volume(body.shape, scene);
   const std::optional<double> share = kept_share(scene, sphere->center);
-  return share.value_or(1.0) * start_density(body) * 4.0 / 3.0 * M_PI * std::pow(sphere->radius, 3);
+  return share.value_or(1.0) * density * 4.0 / 3.0 * M_PI * std::pow(sphere->radius, 3);
 }
 
 /// The contacts of all shapes, from where they were at time zero.
@@ -75,11 +76,6 @@ void grow(Primitive& shape, const std::vector<SphericalState>& states) {
 }
 
 }  // namespace
-
-double rest_energy(const sph::Body& body) {
-  return materials::uses_energy(body.material.law) ? start_energy(body)
-                                                   : materials::barotropic_energy(body.material.law, start_density(body));
-}
 
 std::optional<double> kept_share(const scene::Scene& scene, const Vec3& center) {
   double share = 1.0;
@@ -102,7 +98,12 @@ void lay(const std::vector<SphericalState>& states, bool exact, scene::Scene& sc
     if (parts.empty()) continue;
 
     auto field = std::make_shared<sph::StartField>();
-    const sph::StartState at_rest{start_density(body), start_energy(body), Vec3::Zero()};
+    const bool hydrostatic = body.level && !body.variable_h;
+    const double rest = hydrostatic ? parts.front().flow->layer(parts.front().layer).density : start_density(body);
+    const sph::StartState at_rest{rest, start_energy(body), Vec3::Zero()};
+    if (hydrostatic)
+      field->rest_pressure =
+          std::visit([&](const auto& law) { return law.evaluate(rest, at_rest.energy).pressure; }, body.material.law);
     field->state = [=](const Vec3& x, double spacing) {
       const auto depth = [&](const Part& part) { return part.front - (x - part.center).norm(); };
       const auto deepest = std::max_element(parts.begin(), parts.end(),
@@ -116,8 +117,8 @@ void lay(const std::vector<SphericalState>& states, bool exact, scene::Scene& sc
       field->kinetic_energy += part.share * part.whole().kinetic_energy;
       field->internal_energy += part.share * part.internal_energy();
     }
-    field->mass = whole ? of_layers : rest_mass(body, scene);
-    field->internal_energy += (field->mass - of_layers) * rest_energy(body);
+    field->mass = whole ? of_layers : rest_mass(body, rest, scene);
+    field->internal_energy += (field->mass - of_layers) * rest_energy(body, rest);
     field->exact = exact;
     body.start = field;
     body.burn.reset();  // it has burned

@@ -18,16 +18,14 @@ struct SphericalState {
   double share = 1;                 ///< of the ball that the scene's symmetry planes keep
 };
 
-/// Specific internal energy [J/kg] of a uniform body at the start: its compression energy where the law is barotropic.
-double rest_energy(const sph::Body& body);
-
 /// The share of a ball about a place [m] that the scene's symmetry planes keep: half for each plane through it. Nothing where the
 /// place is cut off. A plane that does not go through it cuts nothing as long as the ball does not reach it.
 std::optional<double> kept_share(const scene::Scene& scene, const Vec3& center);
 
 /// Gives the bodies of the scene the states as their starts: mass and energy of a body are those of its layers and of its rest,
 /// `exact` as a StartField is. Contacts between layers grow, in the shapes of all bodies, to where they are now; charges have
-/// burned. The balls up to the fronts must not meet: each place takes the state of the ball that it lies deepest in.
+/// burned. The balls up to the fronts must not meet: each place takes the state of the ball that it lies deepest in. The flows
+/// are those of a uniform medium; a liquid with a `level` gets its column's pressure beyond that on top.
 void lay(const std::vector<SphericalState>& states, bool exact, scene::Scene& scene);
 
 }  // namespace undex::run

@@ -161,7 +161,7 @@ class Builder {
 
   /// At the start [Pa].
   double pressure_of(const LineLayer& layer) const {
-    if (layer.is_solid) return 0.0;
+    if (layer.is_solid) return scene_.fluid.surroundings.pressure;
     const sph::Body& body = scene_.fluid.bodies[layer.index];
     return std::visit([&](const auto& law) { return law.evaluate(start_density(body), start_energy(body)).pressure; },
                       body.material.law);
@@ -174,7 +174,9 @@ class Builder {
 
   void look_ahead() {
     const LineLayer& last = line_.layers.back();
-    if (spherical_ && line_.layers.size() > 1 && last.inner >= line_.core_high) line_.outside_pressure = pressure_of(last);
+    line_.outside_pressure = scene_.fluid.surroundings.pressure;
+    if (line_.outside_pressure == 0 && spherical_ && line_.layers.size() > 1 && last.inner >= line_.core_high)
+      line_.outside_pressure = pressure_of(last);
     double before = 0;
     bool ahead = false, balanced = true;
     for (const LineLayer& layer : line_.layers) {

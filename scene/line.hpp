@@ -34,7 +34,8 @@ struct Line {
   /// sides of a contact may differ by `held` [Pa], a thousandth of the core's: a body without stress in water under pressure.
   bool rests_ahead = false;
   double held = 0;
-  double outside_pressure = 0;  ///< at an open outer end: the pressure of a fluid that lies round others at the start [Pa]
+  /// At open ends [Pa]: the surroundings' pressure; without one, that which a fluid that lies round others has at the start.
+  double outside_pressure = 0;
   std::vector<LineFlaw> flaws;
 
   double inner() const { return layers.front().inner; }

@@ -52,6 +52,12 @@ void read_symmetry(const TableReader& top, Draft& draft) {
   }
 }
 
+void read_surroundings(const TableReader& top, Draft& draft) {
+  if (const Node* node = top.table("surroundings"))
+    read_fields(TableReader(*node, "surroundings", "surroundings", top.dimension(), draft.report),
+                draft.scene.fluid.surroundings);
+}
+
 void read_scheme(const TableReader& top, Draft& draft) {
   sph::Numerics& numerics = draft.scene.fluid.numerics;
   const Node* node = top.table("scheme");
@@ -122,6 +128,16 @@ void check_level(const TableReader& table, const Draft& draft, bool shape_good, 
                                   "; raise pressure, or move level");
     }
   }
+}
+
+/// A liquid that somebody forgot to put under the surroundings' pressure would be squeezed at its free surfaces.
+void expect_surrounded(const TableReader& table, Draft& draft, const sph::Body& body) {
+  const double around = draft.scene.fluid.surroundings.pressure;
+  if (body.variable_h || around == 0 || body.pressure || body.density || body.energy) return;
+  draft.warnings.add(table.node(),
+                     table.path() +
+                         " has no pressure and begins at the density rho0, under surroundings.pressure = " + rounded(around) +
+                         " Pa: its free surfaces close upon it; give it pressure = " + rounded(around) + " where it is at rest");
 }
 
 /// A programmed burn as the table `of` (or nothing) says, the rest by rule; nothing where there is no such burn.
@@ -207,6 +223,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   read_burn(table, draft, body);
   check_pressure(table, body);
   check_level(table, draft, shape_good, body);
+  expect_surrounded(table, draft, body);
   if (body.energy && !uses_energy(body.material.law))
     table.complain("energy", table.path_of("energy") + ": the law of '" + body.material.name +
                                  "' is barotropic, it has no energy; leave it out");
@@ -282,6 +299,7 @@ void read_fluid(Draft& draft) {
   const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
   read_resolution(top, draft);
   read_symmetry(top, draft);
+  read_surroundings(top, draft);
   read_scheme(top, draft);
   read_bodies(top, draft);
   const auto walls = top.tables("walls");

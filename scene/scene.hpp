@@ -265,11 +265,10 @@ void describe(Scene& scene, Visit&& visit) {
   visit(scene.fluid.gravity,
         {.name = "gravity",
          .unit = "m/s^2",
-         .meaning =
-             "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them, nor with "
-             "`start.kind` \"spherical\" or \"run\""});
-  for (const char* table : {"resolution", "symmetry", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
-                            "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
+         .meaning = "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them"});
+  for (const char* table :
+       {"resolution", "symmetry", "surroundings", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
+        "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
     visit(ByHand{}, {.name = table});
 }
 

@@ -40,6 +40,7 @@ void for_each_table(auto&& visit) {
   visit("", "", all_defaults<Scene>(), "");
   visit("resolution", "", all_defaults<sph::Lattice>(), "");
   visit("symmetry", "", all_defaults<sph::Symmetry>(), "");
+  visit("surroundings", "", all_defaults<sph::Surroundings>(), "");
   visit("scheme", "", all_defaults<sph::Numerics>(), "");
   visit("start", "", all_defaults<Start>(), "");
   visit("bodies", "", all_defaults<sph::Body>(), "");

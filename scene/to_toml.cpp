@@ -164,6 +164,8 @@ void put_fluid(Writer& writer, const sph::Settings& fluid, bool line) {
   else writer.fields(fluid.lattice, false);
   writer.table("[symmetry]", "symmetry");
   writer.fields(fluid.symmetry);
+  writer.table("[surroundings]", "surroundings");
+  writer.fields(fluid.surroundings);
   if (!line) {
     writer.table("[scheme]", "scheme");
     writer.fields(fluid.numerics, false);

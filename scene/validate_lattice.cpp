@@ -17,12 +17,6 @@ void Validator::gravity() {
       complain(draft_.root, "gravity",
                std::string("gravity is not its own mirror image across the symmetry plane ") + "xyz"[a] +
                    " = 0, which cuts a body; leave that plane out, or that component of gravity");
-  if (scene_.start.kind == Start::Kind::spherical)
-    complain(draft_.root, "gravity",
-             "gravity does not go with start.kind = \"spherical\", whose flow is computed without it; take \"plain\"");
-  if (scene_.start.kind == Start::Kind::run)
-    complain(draft_.root, "gravity",
-             "gravity does not go with start.kind = \"run\": what lies beyond the wave must be uniform at rest; leave it out");
 }
 
 void Validator::lattice() {

@@ -147,7 +147,10 @@ struct StartField {
   /// energy that a barotropic body lacks is dissipated as well.
   bool exact = false;
   Vec3 momentum = Vec3::Zero();  ///< of the kept part [kg m/s], where it is exact; not across symmetry planes
-  LaidParticles laid;            ///< where there are some they are the body, and nothing else counts
+  /// Where the body is hydrostatic: the pressure of the uniform rest that the state was computed for [Pa]. The column's pressure
+  /// beyond it is added. Nothing: the state has the column in it.
+  std::optional<double> rest_pressure;
+  LaidParticles laid;  ///< where there are some they are the body, and nothing else counts
 };
 
 struct Body {
@@ -373,12 +376,29 @@ void describe(Numerics& numerics, Visit&& visit) {
   visit(numerics.h_high, {.name = "h_high", .range = Range::between(1, 20), .meaning = "and the largest"});
 }
 
+/// What lies outside of everything.
+struct Surroundings {
+  /// On the fluid's free surfaces, and on the dry faces of structures and solids [Pa].
+  double pressure = 0;
+};
+template <class Visit>
+void describe(Surroundings& surroundings, Visit&& visit) {
+  visit(
+      surroundings.pressure,
+      {.name = "pressure",
+       .unit = "Pa",
+       .range = Range::between(0, 1e9),
+       .meaning = "on the fluid's free surfaces, and on all faces of structures and solids that no fluid wets: the atmosphere's, "
+                  "101325. Their `loads` come on top of it"});
+}
+
 struct Settings {
   int dimension = 3;
   /// Two dimensions as the meridian of bodies of revolution: x is the distance r from the axis, y runs along it, and the plane
   /// x = 0 is one of symmetry. Masses, energies, forces and impulses are those of the whole ring.
   bool axisymmetric = false;
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]; its image across a symmetry plane is mirrored
+  Surroundings surroundings;
   Lattice lattice;
   std::vector<Body> bodies;
   std::vector<Wall> walls;

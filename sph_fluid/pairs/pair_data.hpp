@@ -113,6 +113,7 @@ struct PairInput {
   CellGrid wall_grid;
   std::uint32_t wall_count;
   bool mirror[3];      ///< symmetry planes through the origin
+  double gravity[3];   ///< by which a wall's dummy particles show the pressure of their own place [m/s^2]
   double alpha, beta;  ///< Monaghan's viscosity; with a switch, alpha's upper bound and the beta there
   bool partly;         ///< only clusters within `margin` of the box are worked on
   double disturbed_low[3], disturbed_high[3], margin;  ///< [m]

@@ -19,7 +19,7 @@ __attribute__((always_inline)) constexpr int parity_of_symmetric(int k) { return
 /// meridian [m^2].
 struct alignas(64) FluidRow {
   double vx, vy, vz;  ///< velocity predicted for this evaluation [m/s]
-  double p;           ///< [Pa]
+  double p;           ///< pressure beyond that of the surroundings [Pa]
   double volume;      ///< m/rho [m^3]
   double rho, c;      ///< density [kg/m^3], sound speed [m/s]
   double h;           ///< smoothing length [m]

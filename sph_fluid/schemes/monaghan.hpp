@@ -24,8 +24,9 @@ struct Monaghan {
   static constexpr Partners partners = Partners::all;
   static constexpr bool by_distances = false;
   T alpha, beta;
+  Weight<T> weight;
 
-  explicit Monaghan(const PairInput& in) : alpha(T(in.alpha)), beta(T(in.beta)) {}
+  explicit Monaghan(const PairInput& in) : alpha(T(in.alpha)), beta(T(in.beta)), weight(in) {}
 
   /// rho_i rho_j Pi of eq. 6 [Pa], and books the closing speed. `sound` and `density` are the SUMS over i and j;
   /// vr = v_ij . x_ij < 0 on approach.
@@ -61,12 +62,13 @@ struct Monaghan {
     const WallPair<V> m = wall_pair(i, w, pair);
     V closing;
     const V viscous = share * viscosity(m.approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
-    add_wall_force(pair.F * (2 * i.p + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V rise = weight.rise(i, pair);
+    add_wall_force(pair.F * (2 * i.p + rise + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * m.approach * w.volume;
     si.compression += D;
-    si.heat += T(0.5) * viscous * D;
+    si.heat += T(0.5) * (rise + viscous) * D;
     si.closing = maximum(si.closing, closing);
-    return i.p + T(0.5) * viscous;
+    return i.p + T(0.5) * (rise + viscous);
   }
 
   UNDEX_INLINE static V filling_share(const State&, const State&) { return broadcast(T(1)); }

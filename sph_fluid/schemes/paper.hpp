@@ -23,10 +23,11 @@ struct Paper : Monaghan<T> {
     const V approach = T(0.5) * m.approach;  // of the particle and the wall itself
     V closing;
     const V viscous = this->viscosity(approach, pair, 2 * i.c, 2 * i.rho, i.rho * i.rho, closing);
-    add_wall_force(pair.F * (2 * i.p + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
+    const V rise = this->weight.rise(i, pair);
+    add_wall_force(pair.F * (2 * i.p + rise + viscous), m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * approach * w.volume;
     si.compression += D;
-    si.heat += (i.p + viscous) * D;
+    si.heat += (i.p + rise + viscous) * D;
     si.closing = maximum(si.closing, closing);
   }
 };

@@ -31,8 +31,9 @@ struct Reconstruction {
   static constexpr bool symmetric = false;
   static constexpr Partners partners = Partners::all;
   int dimension;
+  Weight<T> weight;
 
-  explicit Reconstruction(const PairInput& in) : dimension(in.dimension) {}
+  explicit Reconstruction(const PairInput& in) : dimension(in.dimension), weight(in) {}
 
   UNDEX_INLINE static void add(V ux, V uy, V uz, V dp, const Pair<V>& pair, V volume, Sums& s) {
     const V FV = pair.F * volume;
@@ -61,12 +62,13 @@ struct Reconstruction {
     add(j.vx - i.vx, j.vy - i.vy, j.vz - i.vz, j.p - i.p, pair, j.volume, si);
   }
 
-  /// The mirrored state: the same pressure, velocity mirrored about the wall's.
+  /// The mirrored state: the same pressure (but for the weight between), velocity mirrored about the wall's.
   UNDEX_INLINE void wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>&) const {
     const V stick = stick_of(w.slip);
     const V ux = i.vx - w.vx, uy = i.vy - w.vy, uz = i.vz - w.vz;
     const V un = w.slip * (ux * w.nx + uy * w.ny + uz * w.nz);
-    add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), V{}, pair, w.volume, si);
+    add(-2 * (un * w.nx + stick * ux), -2 * (un * w.ny + stick * uy), -2 * (un * w.nz + stick * uz), weight.rise(i, pair), pair,
+        w.volume, si);
   }
 
   /// Of the rows that `store` has written that of particle k, and by what the rates of its pairs with gas are divided.

@@ -57,7 +57,9 @@ struct Riemann {
   static constexpr Partners partners = Partners::all;
   static constexpr bool by_distances = true;  ///< the density of approaching particles of one material follows their distances
 
-  explicit Riemann(const PairInput&) {}
+  Weight<T> weight;
+
+  explicit Riemann(const PairInput& in) : weight(in) {}
 
   /// van Leer's harmonic mean of two slopes, zero where they disagree in sign.
   UNDEX_INLINE static V limited(V a, V b) {
@@ -136,12 +138,12 @@ struct Riemann {
     return p_star;
   }
 
-  /// Against the mirrored state: p* = p + b Z (closing speed)/2, and u* the wall's own. Returns p*.
+  /// Against the mirrored state: p* = p + b Z (closing speed)/2, p halfway to the wall's, and u* the wall's own. Returns p*.
   UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
-    const V p_star =
-        star_pressure(i.p, T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho, i.c, jump, pair.least_pressure, T(0.5) * i.rho);
+    const V p_star = star_pressure(i.p + T(0.5) * weight.rise(i, pair), T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho, i.c,
+                                   jump, pair.least_pressure, T(0.5) * i.rho);
     add_wall_force(2 * pair.F * p_star, m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * m.approach;
     si.compression += D;

@@ -1,4 +1,5 @@
-// What a wall's dummy particle does to a pair: the mirrored velocity difference, and the direction of the force.
+// What a wall's dummy particle does to a pair: the mirrored velocity difference, the direction of the force, and under gravity
+// the pressure of its own place.
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
@@ -34,5 +35,16 @@ UNDEX_INLINE WallPair<V> wall_pair(const FluidState<V>& i, const WallState<V>& w
   m.ez = xn * w.nz + stick * pair.dz;
   return m;
 }
+
+/// By what the pressure at rest under gravity rises from a particle to a wall's.
+template <class T>
+struct Weight {
+  T gx, gy, gz;
+
+  explicit Weight(const PairInput& in) : gx(T(in.gravity[0])), gy(T(in.gravity[1])), gz(T(in.gravity[2])) {}
+  UNDEX_INLINE Vec<T> rise(const FluidState<Vec<T>>& i, const Pair<Vec<T>>& pair) const {
+    return -i.rho * (gx * pair.dx + gy * pair.dy + gz * pair.dz);
+  }
+};
 
 }  // namespace undex::sph::UNDEX_LEVEL

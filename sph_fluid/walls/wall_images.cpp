@@ -196,7 +196,7 @@ void WallImages::for_each_mirror(std::uint32_t c, Visit visit) const {
   while (length-- > 0) visit(images_[chain[length]]);
 }
 
-void WallImages::reflect_rows(const Particles& particles, const RingKernel* rings) {
+void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, const RingKernel* rings) {
   rows_.resize(images_.size());
   viscosity_.resize(particles.viscosity.empty() ? 0 : images_.size());
   gradients_.resize(particles.gradient.empty() ? 0 : images_.size());
@@ -208,6 +208,7 @@ void WallImages::reflect_rows(const Particles& particles, const RingKernel* ring
     FluidRow row = particles.predicted[images_[c].owner];
     for_each_mirror(c, [&](const Image& image) { reflect(row, image.normal, image.wall_velocity, image.stretch); });
     if (rings) ring_[slot_[c]] = ring_of(c, particles, *rings, row);
+    row.p += row.rho * gravity.dot(images_[c].place - place_of(particles, images_[c].owner));
     rows_[slot_[c]] = row;
     if (!viscosity_.empty()) viscosity_[slot_[c]] = particles.viscosity[images_[c].owner];
   }
@@ -233,16 +234,26 @@ RingRow WallImages::ring_of(std::uint32_t c, const Particles& particles, const R
   return ring;
 }
 
-void WallImages::reflect_gradients(const Particles& particles) {
+void WallImages::reflect_gradients(const Particles& particles, const Vec3& gravity) {
   if (gradients_.empty() && corrected_.empty()) return;
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
-    const auto through = [&](auto row) {
+    const std::uint32_t owner = images_[c].owner;
+    const Vec3 weight = particles.predicted[owner].rho * gravity;
+    // What the weight makes of the pressure's slope is the same on both sides.
+    const auto add_weight = [&](GradientRow& row, double sign) {
+      for (int a = 0; a < 3; ++a) row.pressure[a] = float(row.pressure[a] + sign * weight[a]);
+    };
+    const auto through = [&](auto row, auto gradient) {
+      add_weight(gradient(row), -1.0);
       for_each_mirror(c, [&](const Image& image) { reflect(row, image.normal); });
+      add_weight(gradient(row), 1.0);
       return row;
     };
-    if (!gradients_.empty()) gradients_[slot_[c]] = through(particles.gradient[images_[c].owner]);
-    if (!corrected_.empty()) corrected_[slot_[c]] = through(particles.corrected[images_[c].owner]);
+    if (!gradients_.empty())
+      gradients_[slot_[c]] = through(particles.gradient[owner], [](GradientRow& row) -> GradientRow& { return row; });
+    if (!corrected_.empty())
+      corrected_[slot_[c]] = through(particles.corrected[owner], [](CorrectedRow& row) -> GradientRow& { return row.gradient; });
   }
 }
 
@@ -274,8 +285,10 @@ Vec3 WallImages::scatter_one(std::uint32_t k, Particles& particles) {
   const Vec3 f(given.fx, given.fy, given.fz), back = image.stretch * reflected(f, image.normal);
   SumRow& to = image.parent < 0 ? particles.rate[image.owner] : sums_[slot_[image.parent]];
   to.fx += back[0], to.fy += back[1], to.fz += back[2];
+  // The energy that compression takes up is that at the pressure of whom it shows.
+  const double shown = image.parent < 0 ? particles.predicted[image.owner].p : rows_[slot_[image.parent]].p;
   to.compression += image.stretch * given.compression;
-  to.heat += image.stretch * given.heat;
+  to.heat += image.stretch * (given.heat + (rows_[slot_[k]].p - shown) * given.compression);
   to.closing = std::max(to.closing, given.closing);
   return rows_[slot_[k]].volume * 2.0 * f.dot(image.normal) * image.normal;
 }

@@ -1,5 +1,5 @@
 // Walls that the fluid slips along, as mirrors. Every particle within reach of such a wall has an image behind it: same
-// density, pressure and sound speed, velocity mirrored about the wall's,
+// density, pressure (under gravity that of its own depth) and sound speed, velocity mirrored about the wall's,
 //   v' = R v + 2 (v_w . n) n,   R = 1 - 2 n n^T,
 // and a volume that answers to the wall's curvature (image_volume). Images are partners of particles like particles; of
 // the pairs (i, image of j) and (j, image of i), which a plane wall makes equal, each counts one half. What an image receives
@@ -41,8 +41,8 @@ class WallImages {
   void forget();
 
   /// Rows of the images from those of the particles: all but gradients, and these.
-  void reflect_rows(const Particles& particles, const RingKernel* rings = nullptr);
-  void reflect_gradients(const Particles& particles);
+  void reflect_rows(const Particles& particles, const Vec3& gravity, const RingKernel* rings = nullptr);
+  void reflect_gradients(const Particles& particles, const Vec3& gravity);
   /// Adds what the images have received to the sums of the particles that they show, and the walls' share to `force` [N]. Returns
   /// the power on moving walls [W].
   double scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force);

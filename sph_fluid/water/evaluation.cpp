@@ -99,15 +99,16 @@ void Evaluation::equation_of_state(ParticleSet& set, const Ahead& ahead) {
   double h_max = 0;
   for (Group& group : set.groups) {
     std::visit([&](const auto& law) { evaluate_group(set, law, group, ahead); }, group.body->material.law);
-    set.views.push_back({.begin = group.begin,
-                         .end = group.end,
-                         .grid = group.cells.view(),
-                         .h_max = group.h_max,
-                         .variable_h = group.body->variable_h,
-                         .gas = group.body->variable_h,
-                         .material = group.material,
-                         .least_pressure = std::min(0.0, materials::least_pressure(group.body->material.law)),
-                         .fast = group.fast});
+    set.views.push_back(
+        {.begin = group.begin,
+         .end = group.end,
+         .grid = group.cells.view(),
+         .h_max = group.h_max,
+         .variable_h = group.body->variable_h,
+         .gas = group.body->variable_h,
+         .material = group.material,
+         .least_pressure = std::min(0.0, materials::least_pressure(group.body->material.law)) - settings_.surroundings.pressure,
+         .fast = group.fast});
     h_max = std::max(h_max, group.h_max);
   }
   set.reach = loops_.support * h_max;
@@ -125,6 +126,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
   const bool burning = group.body->burn.has_value();
   const bool beside = set.choice == PairChoice::fast && !group.fast;
   const Vec3& gravity = settings_.gravity;
+  const double around = settings_.surroundings.pressure;
   const double nearest = 1e-6 * group.spacing;  // to the axis
   double h_max = variable ? 0.0 : group.h0;
   long held = 0, empty = 0;
@@ -158,7 +160,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
     } else {
       state = law.evaluate(rho, energy);
     }
-    q.p = state.pressure;
+    q.p = state.pressure - around;
     q.c = state.sound_speed;
     // A cavity closes against liquid: with the mixture's own few m/s neither the dissipation nor the step would see
     // that coming (energy error 5 % over the closing of a cavity instead of 0.3 %).
@@ -217,7 +219,7 @@ void Evaluation::find_images(ParticleSet& set) {
   const auto timer = timers_.measure("walls");
   const std::vector<ParticleRange> ranges = ranges_of(set.groups, loops_.support, slip_faces_, walls_.mirrors);
   set.images.build(settings_, slip_faces_, walls_.mirrors, set.particles, ranges);
-  set.images.reflect_rows(set.particles, rings_ ? &*rings_ : nullptr);
+  set.images.reflect_rows(set.particles, settings_.gravity, rings_ ? &*rings_ : nullptr);
   if (set.images.size() == 0) return;
   for (std::size_t g = 0; g < set.groups.size(); ++g) {
     GroupView view = set.views[g];
@@ -251,6 +253,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   set.images.describe(in);
   if (set.meets_walls) lining_.describe(in);
   for (int a = 0; a < 3; ++a) in.mirror[a] = settings_.symmetry.axis[a];
+  for (int a = 0; a < 3; ++a) in.gravity[a] = settings_.gravity[a];
   in.alpha = settings_.numerics.alpha;
   in.beta = settings_.numerics.beta;
   set.blocks.describe(in);
@@ -271,7 +274,7 @@ void Evaluation::pairs(ParticleSet& set, bool at_rest) {
     std::fill(set.particles.gradient.begin(), set.particles.gradient.end(), GradientRow{{}, {}, 1.0f});
   } else if (loops_.gradients) {
     loops_.gradients(in, out);
-    set.images.reflect_gradients(set.particles);
+    set.images.reflect_gradients(set.particles, settings_.gravity);
   }
   loops_.rates(in, out);
   for (const long long count : set.interactions) interactions_ += count;
@@ -300,6 +303,7 @@ void Evaluation::finish_rates(ParticleSet& set) {
   Particles& p = set.particles;
   // With local steps gravity acts about the step, on all alike: in the substeps nobody falls past a neighbour.
   const Vec3 gravity = set.choice == PairChoice::fast ? Vec3(Vec3::Zero()) : settings_.gravity;
+  const double around = settings_.surroundings.pressure;
   set.healthy = true;
   for (const Group& group : set.groups) {
     const bool with_energy = materials::uses_energy(group.body->material.law);
@@ -313,7 +317,7 @@ void Evaluation::finish_rates(ParticleSet& set) {
       rate.fy = specific * rate.fy + gravity[1];
       rate.fz = specific * rate.fz + gravity[2];
       rate.heat *= specific;
-      if (with_energy) rate.heat += q.p * specific * rate.compression;
+      if (with_energy) rate.heat += (q.p + around) * specific * rate.compression;
       ok = ok && std::isfinite(q.p + rate.fx + rate.fy + rate.fz + rate.heat + rate.compression);
       ok = ok && q.c + rate.closing < fastest;
       // Beyond reach of any signal only some of the pairs were worked on, and rest is rest.

@@ -65,7 +65,8 @@ void Fluid::find_rates_anew() { self_->find_rates_anew(); }
 Ledger Fluid::ledger() const { return self_->ledger(); }
 FluidPoint Fluid::at(const Vec3& point) const { return self_->at(point); }
 double Fluid::maximum_pressure() const {
-  return self_->largest([&](std::size_t i) { return self_->all.particles.predicted[i].p; });
+  return self_->largest(
+      [&](std::size_t i) { return self_->all.particles.predicted[i].p + self_->settings.surroundings.pressure; });
 }
 double Fluid::maximum_speed() const {
   const Particles& p = self_->all.particles;

@@ -33,6 +33,8 @@ struct Ledger {
   double dissipated = 0;  ///< viscous heat of barotropic bodies (where there is an energy field it is in `internal`)
   double wall_work = 0;   ///< work that the fluid has done on moving walls
   double gravity = 0;     ///< work that gravity has done on the fluid
+  /// Work of the surroundings' pressure on it, less what moving walls have of that: - p (change of the fluid's volume).
+  double surroundings = 0;
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
 };

@@ -14,6 +14,7 @@ namespace undex::sph {
 struct Fluid::Implementation : Water {
   LocalSteps local_steps;
   double lifted = 0;          // fall() at the start [J]
+  double filled = 0;          // volume() at the start [m^3]
   bool limits_known = false;  // has step_limit been asked since the last step?
 
   explicit Implementation(const Settings& settings);
@@ -32,8 +33,12 @@ struct Fluid::Implementation : Water {
   void lay_on(const StartField& start, Group& group);
   /// The same of a start that is exact: all masses become `heavier`.
   void make_exact(const StartField& start, const Group& group, double heavier);
+  /// Adds the pressure of a column at rest, beyond the rest that the state was computed for, to a body's state; volumes stay.
+  void weigh_down(const Group& group, const materials::HydrostaticColumn& column, double rest_pressure);
   /// Sum of m g . x [J]: what it has grown by is gravity's work.
   double fall() const;
+  /// Sum of m/rho [m^3], where surroundings press on it; else 0.
+  double volume() const;
 
   // The step: step.cpp.
   void step(double dt);

@@ -98,6 +98,12 @@ double Fluid::Implementation::fall() const {
                              [&](std::uint32_t i) { return p.mass[i] * (g[0] * p.x[i] + g[1] * p.y[i] + g[2] * p.z[i]); });
 }
 
+double Fluid::Implementation::volume() const {
+  const Particles& p = all.particles;
+  if (settings.surroundings.pressure == 0.0) return 0.0;
+  return blocked_sum<double>(0, std::uint32_t(p.size()), [&](std::uint32_t i) { return p.mass[i] / p.rho[i]; });
+}
+
 Ledger Fluid::Implementation::ledger() const {
   const Particles& p = all.particles;
   struct Part {
@@ -132,6 +138,7 @@ Ledger Fluid::Implementation::ledger() const {
   ledger.dissipated = exchange.dissipated;
   ledger.wall_work = exchange.wall_work;
   ledger.gravity = fall() - lifted;
+  ledger.surroundings = settings.surroundings.pressure * (filled - volume());
   return ledger;
 }
 
@@ -177,7 +184,7 @@ FluidPoint Fluid::Implementation::at(const Vec3& point) const {
     const double size = settings.axisymmetric ? q.vz : q.volume;  // of a ring its area
     const double w = size * value<WendlandC2>(r, shrink * q.h, settings.dimension);
     weight += w;
-    values.pressure += w * q.p;
+    values.pressure += w * (q.p + settings.surroundings.pressure);
     values.density += w * q.rho;
     values.void_fraction += w * std::visit([&](const auto& law) { return law.void_fraction(q.rho); }, group.body->material.law);
     const double v[3] = {q.vx, q.vy, settings.axisymmetric ? 0.0 : q.vz};
@@ -202,7 +209,7 @@ std::vector<double> Fluid::Implementation::field(std::string_view name) const {
     for (std::size_t i = 0; i < n; ++i) out[i] = f(i);
   };
   if (name == "pressure") {
-    scalar([&](std::size_t i) { return p.predicted[i].p; });
+    scalar([&](std::size_t i) { return p.predicted[i].p + settings.surroundings.pressure; });
   } else if (name == "sound_speed") {
     scalar([&](std::size_t i) { return p.predicted[i].c; });
   } else if (name == "smoothing_length") {

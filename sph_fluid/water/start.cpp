@@ -24,6 +24,7 @@ void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
   evaluation.count_anew();
   fill(std::move(bodies));
   lifted = fall();
+  filled = volume();
   evaluation.pack_walls(all);
   all.particles.make_room(evaluation.loops().second, settings.numerics.alpha, settings.numerics.integrator == Integrator::ssp_rk3,
                           settings.axisymmetric);
@@ -111,6 +112,8 @@ void Fluid::Implementation::fill(std::vector<BodyParticles> bodies) {
     bodies[b] = {};  // its memory is wanted
     if (body.start && !body.start->laid.position.empty()) take(body.start->laid, group);
     else if (body.start) lay_on(*body.start, group);
+    if (body.start && body.start->laid.position.empty() && body.start->rest_pressure && column)
+      weigh_down(group, *column, *body.start->rest_pressure);
     all.groups.push_back(std::move(group));
   }
 }
@@ -156,6 +159,28 @@ void Fluid::Implementation::lay_on(const StartField& start, Group& group) {
   for (std::uint32_t i = group.begin; i < group.end; ++i) {
     p.mass[i] *= heavier;
     if (with_energy) p.energy[i] *= hotter;
+  }
+}
+
+void Fluid::Implementation::weigh_down(const Group& group, const materials::HydrostaticColumn& column, double rest_pressure) {
+  Particles& p = all.particles;
+  const Body& body = *group.body;
+  const materials::FluidLaw& law = body.material.law;
+  const Vec3 down = settings.gravity.normalized();
+  const bool with_energy = materials::uses_energy(law);
+#pragma omp parallel for schedule(static)
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    const double energy = with_energy ? p.energy[i] : 0.0;
+    const auto [pressure, voids] = std::visit(
+        [&](const auto& each) {
+          return std::pair(each.evaluate(p.rho[i], energy).pressure, each.void_fraction(p.rho[i], energy));
+        },
+        law);
+    if (voids > 0.0) continue;  // vapour weighs nothing
+    const double more = column.pressure((place_of(p, i) - *body.level).dot(down)) - rest_pressure;
+    const double rho = materials::density_at(law, std::max(pressure + more, materials::least_pressure(law)), energy);
+    p.mass[i] *= rho / p.rho[i];
+    p.rho[i] = rho;
   }
 }
 

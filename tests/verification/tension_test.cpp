@@ -81,6 +81,21 @@ TEST_P(Tension, ASlipWallHoldsLikeAMirror) {
   if (GetParam() != SchemeName::paper) expect_exact(behind_the_wave(settings));
 }
 
+TEST_P(Tension, ALinedWallHoldsToo) {
+  Settings settings = scene_1d(0.002, GetParam());
+  settings.bodies = {tearless("right", 0, 0.6, speed)};
+  settings.walls = {{.name = "wall", .container = Box{Vec3(0, -1, -1), Vec3(2, 1, 1)}, .faces = {}}};
+  for (const char* face : {"x_low", "x_high"}) settings.walls[0].faces[face] = FaceCondition::no_slip;
+  if (GetParam() != SchemeName::paper) expect_exact(behind_the_wave(settings));
+}
+
+TEST_P(Tension, UnderAnAtmosphereItIsTheSame) {
+  Settings settings = scene_1d(0.002, GetParam());
+  settings.surroundings.pressure = rest;
+  settings.bodies = {tearless("left", -0.6, 0, -speed), tearless("right", 0, 0.6, speed)};
+  expect_exact(behind_the_wave(settings));
+}
+
 TEST_P(Tension, ACutOffBoundsIt) {
   // It tears at -2 MPa, and no pair pulls harder; where the halves have parted their ends are free, and the tension is let go of.
   Settings settings = scene_1d(0.002, GetParam());

@@ -9,6 +9,7 @@
 #include "exact/classical.hpp"
 #include "exact/isentrope.hpp"
 #include "exact/lagrangian_1d.hpp"
+#include "materials/hydrostatic.hpp"
 #include "materials/library.hpp"
 
 namespace undex::exact {
@@ -150,6 +151,71 @@ TEST(PlateBoundary, GivesTaylorsPlate) {
       mesh.advance(1.9 * end);
       EXPECT_NEAR(mesh.node_velocity().back() / then, 1.0, 2e-3);
     }
+  }
+}
+
+// ---- Bleich and Sandler's plate: the mesh under gravity and the atmosphere, and cavities that close ------------------
+
+/// Water under the atmosphere and a plate that floats on it: all that is at rest stays so.
+TEST(PlateBoundary, AFloatingPlateRests) {
+  const materials::FluidLaw law = fluid("water-tait-cutoff");
+  const double g = 9.81, atmosphere = 101325, mass = 144.7, depth = 12.0, rest = atmosphere + mass * g;
+  const materials::HydrostaticColumn column(law, 0.0, rest, g, 0.0, depth);
+  Layer water{.law = law, .inner = -depth, .outer = 0.0, .cells = 200};
+  water.start = [&](double x) { return StartPoint{column.density(-x), 0.0, 0.0}; };
+  Lagrangian1DOptions options;
+  options.outer_mass = mass;
+  options.outer_pressure = 0.25 * atmosphere;
+  options.outer_load = [&](double) { return 0.75 * atmosphere; };
+  options.gravity = -g;
+  Lagrangian1D mesh(1, {water}, Boundary::rigid, Boundary::free, options);
+  const double start = mesh.total_energy();
+  double fastest = 0;
+  for (int k = 1; k <= 20; ++k) {
+    mesh.advance(10e-3 * k / 20);
+    for (const double u : mesh.node_velocity()) fastest = std::max(fastest, std::abs(u));
+  }
+  EXPECT_LT(fastest, 1e-8);
+  for (int i = 0; i < mesh.cells(); ++i)
+    EXPECT_NEAR(mesh.cell_pressure()[i], column.pressure(-0.5 * (mesh.node_radius()[i] + mesh.node_radius()[i + 1])), 0.1);
+
+  // A plate that is too heavy by a tenth of the atmosphere sinks as the water yields, m dv/dt = dp - rho c v; and the work that
+  // gravity and the load do is all that the mesh gains.
+  options.outer_load = [&](double) { return 0.85 * atmosphere; };
+  Lagrangian1D pressed(1, {water}, Boundary::rigid, Boundary::free, options);
+  pressed.advance(1e-3);
+  const double impedance = column.density(0) * std::get<materials::TaitWater>(law).evaluate(column.density(0), 0).sound_speed;
+  const double exact = 0.1 * atmosphere / impedance * (1 - std::exp(-impedance / mass * 1e-3));
+  EXPECT_NEAR(-pressed.node_velocity().back() / exact, 1.0, 5e-3);
+  EXPECT_LT(pressed.boundary_work(), 0.0);
+  EXPECT_NEAR((pressed.total_energy() + pressed.boundary_work() - start) / pressed.boundary_work(), 0.0, 1e-8);
+}
+
+/// Liquid at speed U runs into water that has cavitated, with the share f of voids and at rest. Where they meet the voids are
+/// squeezed out: behind that front p = rho_m S u, (S - u) rho = S rho_m, and into the liquid runs p = rho c (U - u).
+TEST(PlateBoundary, ACavityThatClosesHammers) {
+  const materials::FluidLaw law = fluid("water-tait-cutoff");
+  const auto& tait = std::get<materials::TaitWater>(law);
+  const double rho0 = tait.density_at(1.0), c = tait.evaluate(rho0, 0).sound_speed, U = 2.0, f = 0.01;
+  double low = 0.0, high = U;
+  for (int k = 0; k < 100; ++k) {  // for u
+    const double u = 0.5 * (low + high), p = rho0 * c * (U - u), rho = tait.density_at(p), S = u / (1 - (1 - f) * rho0 / rho);
+    (p > (1 - f) * rho0 * S * u ? low : high) = u;
+  }
+  const double exact = rho0 * c * (U - low);
+  double last = 0;
+  for (const int cells : {200, 400, 800}) {
+    Layer water{.law = law, .inner = -1.0, .outer = 1.0, .cells = cells};
+    water.start = [&](double x) { return StartPoint{x < 0 ? rho0 : (1 - f) * rho0, x < 0 ? U : 0.0, 0.0}; };
+    Lagrangian1DOptions options;
+    Lagrangian1D mesh(1, {water}, Boundary::transmitting, Boundary::rigid, options);
+    mesh.advance(4e-4);
+    const double p = mesh.integral(-0.4, -0.02).pressure();
+    RecordProperty("hammer_" + std::to_string(cells), std::to_string(p / exact - 1));
+    EXPECT_NEAR(p / exact, 1.0, 10.0 / cells) << cells;
+    const double error = std::abs(p / exact - 1);
+    if (last > 0) EXPECT_LT(error, 0.75 * last) << cells;
+    last = error;
   }
 }
 

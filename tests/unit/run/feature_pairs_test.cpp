@@ -23,7 +23,8 @@ struct Column {
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
   bool slip = true, surface = false;  // of the coupling; solids by their wet faces
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
-  bool mirrored = true, obstacle = false, gravity = false, pushed = false, held = false, landing = false, flying = false;
+  bool mirrored = true, obstacle = false, gravity = false, around = false, pushed = false, held = false, landing = false;
+  bool flying = false;
   double half_width = 8, depth = 16;
   std::string walls = "free_slip";  // "none", "no_slip", "open below"
   std::string water = "\"water-tait\"", plate_material = "\"al-5083-h116\"";
@@ -110,6 +111,7 @@ std::string Column::text() const {
                   : std::to_string(dimension))
       << '\n';
   if (gravity) out << "gravity = " << point(0, -1e7) << '\n';
+  if (around) out << "[surroundings]\npressure = 2e6\n";
   out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n";
   if (plate != Plate::none) out << "[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
   if (surface && plate != Plate::none) out << "solids = \"surface\"\n";
@@ -188,6 +190,7 @@ const std::vector<Feature>& features() {
       {"symmetry", "no_symmetry", [](Column& c) { c.mirrored = false; }},
       {"obstacle", "free_ball", [](Column& c) { c.obstacle = true; }},
       {"gravity", "gravity", [](Column& c) { c.gravity = true; }},
+      {"surroundings", "surroundings", [](Column& c) { c.around = true; }},
       {"loads", "loads", [](Column& c) { c.pushed = true; }},
       {"supports", "held", [](Column& c) { c.held = true, c.scheme["courant"] = "0.03"; }},
       {"planes", "rigid_plane", [](Column& c) { c.landing = c.flying = true, c.scheme["courant"] = "0.03"; }},

@@ -107,7 +107,8 @@ void expect_exact(const Simulation& receiver, int receiver_copies, const Simulat
     EXPECT_NEAR(here[b].along, there[b].along, 1e-12 * scale) << b;
   }
   EXPECT_NEAR(here[0].energy / there[0].energy, 1.0, 1e-12);  // the gas; of water some is dissipated
-  EXPECT_NEAR(receiver.energy().total() / donor.energy().total(), 1.0, 1e-12);
+  // What gravity did in the donor is part of what it has.
+  EXPECT_NEAR(receiver.energy().total() / (donor.energy().total() + donor.energy().gravity), 1.0, 1e-12);
   EXPECT_EQ(receiver.time(), donor.time());
 }
 
@@ -276,7 +277,10 @@ TEST(RunStart, RefusesWhatItCannotGive) {
   says(from_ring, {{"bodies.gas.energy", "1.1e6"}}, "give both scenes the same state at time zero");
   says(from_ring, {{"bodies.water.velocity", "[0, 0, 1]"}}, "moves");
   says(from_ring, {{"symmetry.planes", "[\"z\"]"}}, "symmetry");
-  says(from_ring, {{"gravity", "[0, 0, -9.81]"}}, "gravity does not go with");
+  says(from_ring, {{"gravity", "[0, 0, -9.81]"}}, "the donor has another gravity");
+  says(from_ring, {{"surroundings.pressure", "1e5"}}, "the donor has other surroundings");
+  says(from_radius, {{"gravity", "[0, 0, -9.81]"}, {"bodies.water.level", "0.03"}}, "the pressure of its middle's depth");
+  EXPECT_EQ(refusal(from_radius, {{"gravity", "[0, 0, -9.81]"}, {"bodies.water.level", "0.004"}}), "");
   says(from_ring, {{"walls.tank.faces", "{high = \"open\"}"}, {"start.time", "9e-6"}}, "has come to wall 'tank'");
   says(from_radius, {{"start.time", "9.9e-6"}}, "has come to");
   std::string renamed = space;
@@ -289,6 +293,28 @@ TEST(RunStart, RefusesWhatItCannotGive) {
   folder.file("one.toml", started(space, other, "4e-6"));
   scene::Scene scene = scene::read(one, {});
   EXPECT_THROW(begin(scene), SceneError);
+}
+
+/// Two scenes under one gravity: what the wave has not come to keeps the pressure of its depth, and all is exact by body.
+TEST(RunStart, UnderOneGravity) {
+  const Folder folder;
+  std::string ring = in_the_meridian, space = in_space(0.003, "[\"x\", \"y\"]");
+  for (std::string* text : {&ring, &space}) {
+    text->insert(0, "gravity = [0, 0, -1e5]\n");
+    const std::string pressure = "pressure = 1e5";
+    text->replace(text->find(pressure), pressure.size(), pressure + "\nlevel = 0.03");
+  }
+  const fs::path from = folder.file("donor.toml", ring);
+  const Simulation donor = run_of(ring, 4e-6);
+  Simulation receiver(begun(started(space, from, "4e-6")));
+  expect_exact(receiver, 4, donor, 1);
+  EXPECT_NEAR(receiver.fluid()->at(Vec3(0, 0, -0.024)).pressure, 1e5 + 1e8 * 0.054, 0.05e6);
+  run_to(receiver, 6e-6);
+  EXPECT_LT(std::abs(receiver.energy().error()), 0.01);
+  const std::string level = "level = 0.03";
+  space.replace(space.find(level), level.size(), "level = 0.031");
+  EXPECT_NE(refusal(started(space, from, "4e-6")).find("give both the same level and pressure"), std::string::npos)
+      << refusal(started(space, from, "4e-6"));
 }
 
 /// A chain: radius, meridian, space.

@@ -44,43 +44,6 @@ material = {rho0 = 2700, young_modulus = 7.1e10, poisson_ratio = 0.33, flow = {l
 wet = ["z_low"]
 )";
 
-std::string refusal(const std::string& text, const std::vector<scene::Override>& overrides) {
-  scene::Scene scene = read_text(text, overrides);
-  try {
-    begin_spherically(scene);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// Only the charge's flow is computed until the particles take over: whatever would not stay at rest until then is refused.
-TEST(SphericalStart, RefusesWhatWouldNotRest) {
-  EXPECT_EQ(refusal(bubble_in_a_tank, {}), "");
-  const auto says = [](const std::string& text, const std::vector<scene::Override>& overrides, const char* what) {
-    EXPECT_NE(refusal(text, overrides).find(what), std::string::npos) << refusal(text, overrides);
-  };
-  says(bubble_in_a_tank, {{"bodies.other.pressure", "1.2e7"}}, "'other' begins at 1.2e+07 Pa");
-  says(bubble_in_a_tank, {{"bodies.other.velocity", "[0, 0, 10]"}}, "'other' moves");
-  const std::string coupled = bubble_in_a_tank + plate_beside;
-  EXPECT_EQ(refusal(coupled, {}), "");
-  EXPECT_EQ(refusal(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}}), "");
-  says(coupled, {{"structure.velocity", "[0, 0, 1]"}}, "velocity");
-  says(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e7]}]"}}, "a load of 1e+07 Pa");
-  EXPECT_THROW(read_text(bubble_in_a_tank, {{"start.time", "1"}}), SceneError);
-}
-
-/// A load that balances the water's pressure does not push the plate before the water is there.
-TEST(SphericalStart, LoadsWaitForTheWater) {
-  scene::Scene scene =
-      read_text(bubble_in_a_tank + plate_beside, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}});
-  begin_spherically(scene);
-  const Simulation simulation(scene);
-  EXPECT_GT(simulation.time(), 1e-6);
-  EXPECT_EQ(simulation.bodies().front()->time(), simulation.time());
-  EXPECT_EQ(simulation.bodies().front()->ledger().momentum, Vec3(0, 0, 0));
-}
-
 const std::string two_bubbles = R"(
 end_time = 1e-4
 threads = 1
@@ -107,6 +70,80 @@ subtract = ["upper", "lower"]
 material = "water-tait"
 pressure = 1e5
 )";
+
+std::string refusal(const std::string& text, const std::vector<scene::Override>& overrides) {
+  scene::Scene scene = read_text(text, overrides);
+  try {
+    begin_spherically(scene);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Only the charge's flow is computed until the particles take over: whatever would not stay at rest until then is refused.
+TEST(SphericalStart, RefusesWhatWouldNotRest) {
+  EXPECT_EQ(refusal(bubble_in_a_tank, {}), "");
+  const auto says = [](const std::string& text, const std::vector<scene::Override>& overrides, const char* what) {
+    EXPECT_NE(refusal(text, overrides).find(what), std::string::npos) << refusal(text, overrides);
+  };
+  says(bubble_in_a_tank, {{"bodies.other.pressure", "1.2e7"}}, "'other' begins at 1.2e+07 Pa");
+  says(bubble_in_a_tank, {{"bodies.other.velocity", "[0, 0, 10]"}}, "'other' moves");
+  const std::string coupled = bubble_in_a_tank + plate_beside;
+  EXPECT_EQ(refusal(coupled, {}), "");
+  EXPECT_EQ(refusal(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}}), "");
+  says(coupled, {{"structure.velocity", "[0, 0, 1]"}}, "velocity");
+  says(coupled, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e7]}]"}}, "a load of 1e+07 Pa");
+  EXPECT_THROW(read_text(bubble_in_a_tank, {{"start.time", "1"}}), SceneError);
+}
+
+/// Under gravity the flow is that of the medium at the charge's depth, and the column's pressure beyond that is added to it.
+TEST(SphericalStart, OnAHydrostaticColumn) {
+  const double g = 1e5;
+  scene::Scene scene = read_text(
+      bubble_in_a_tank, {{"gravity", "[0, 0, -1e5]"}, {"bodies.water.level", "0.06"}, {"bodies.other.pressure", "1.6e6"}});
+  const materials::FluidLaw law = scene.fluid.bodies[1].material.law;
+  const Vec3 down(0, 0, -1);
+  const materials::HydrostaticColumn column(law, 0, 1e5, g, 0, 0.12);
+  begin_spherically(scene);
+  const double rest = *scene.fluid.bodies[1].start->rest_pressure;
+  EXPECT_NEAR(rest / column.pressure(0.06), 1.0, 1e-9);
+  // What the one-dimensional flow has at a place, and the weight.
+  const auto flow = scene.fluid.bodies[1].start->state;
+  Simulation simulation(scene);
+  const auto x = simulation.fluid()->field("position"), p = simulation.fluid()->field("pressure"),
+             body = simulation.fluid()->field("material");
+  int in_the_wave = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec3 place(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+    if (body[i] != 1) continue;
+    const double alone = std::visit([&](const auto& each) { return each.evaluate(flow(place, 0.004).density, 0).pressure; }, law);
+    const double more = column.pressure(0.06 - place[2]) - rest;
+    if (alone > 10 * rest) ++in_the_wave;
+    if (alone + more > 2e5) EXPECT_NEAR(p[i], alone + more, 1e-6 * std::abs(alone) + 1.0) << place.transpose();
+  }
+  EXPECT_GT(in_the_wave, 20);
+  run_to(simulation, simulation.time() + 5e-6);
+  EXPECT_LT(std::abs(simulation.energy().error()), 0.01);
+  EXPECT_NE(simulation.energy().gravity, 0.0);
+}
+
+TEST(SphericalStart, ChargesOfOneDepthOnly) {
+  const std::vector<scene::Override> deep{{"gravity", "[0, 0, -1e5]"}, {"bodies.water.level", "0.075"}};
+  EXPECT_NE(refusal(two_bubbles, deep).find("lie in water under other pressures"), std::string::npos)
+      << refusal(two_bubbles, deep);
+}
+
+/// A load that balances the water's pressure does not push the plate before the water is there.
+TEST(SphericalStart, LoadsWaitForTheWater) {
+  scene::Scene scene =
+      read_text(bubble_in_a_tank + plate_beside, {{"structure.loads", "[{face = \"z_high\", time = [0], pressure = [1e5]}]"}});
+  begin_spherically(scene);
+  const Simulation simulation(scene);
+  EXPECT_GT(simulation.time(), 1e-6);
+  EXPECT_EQ(simulation.bodies().front()->time(), simulation.time());
+  EXPECT_EQ(simulation.bodies().front()->ledger().momentum, Vec3(0, 0, 0));
+}
 
 double mass_of(const Simulation& simulation, int body) {
   const auto mass = simulation.fluid()->field("mass"), material = simulation.fluid()->field("material");

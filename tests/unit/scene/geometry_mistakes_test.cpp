@@ -177,7 +177,6 @@ TEST(Geometry, Gravity) {
   expect(with(pool, "low = [0, 0]", "low = [0, -1]") + planes,
          "3:11: gravity is not its own mirror image across the symmetry plane y = 0");
   EXPECT_EQ(mistakes(pool + "[start]\nkind = \"plane_wave\"\naxis = \"y\"\nfront = 0.5\npeak = 1e6\ndecay = 1e-5\n"), "");
-  expect(pool + "[start]\nkind = \"spherical\"\n", "3:11: gravity does not go with start.kind = \"spherical\"");
 }
 
 TEST(Geometry, Rotation) {

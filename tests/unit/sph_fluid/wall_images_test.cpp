@@ -180,7 +180,7 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
     const ParticleRange range{.first = 0, .last = std::uint32_t(count), .cells = &cells, .width = 0.1, .depth = 0.12};
     WallImages images;
     images.build(settings, {}, {tube}, particles, {&range, 1});
-    images.reflect_rows(particles);
+    images.reflect_rows(particles, Vec3::Zero());
     ASSERT_EQ(images.size(), std::size_t(count)) << "one each, on the edges of faces too";
     PairInput in{};
     images.describe(in);
