@@ -1,6 +1,6 @@
 // The section of a lattice of rings. Rings of about square cells are not in equilibrium under uniform pressure, |g| h being 0.09
-// at the axis and 0.006 further out (water/settle.hpp): their points are moved until it vanishes, as settled starts do it, once for
-// all layers. At the radius that the rings are fitted to the section is mirrored, as in a slip wall; quadrants are alike.
+// at the axis and 0.006 further out (water/settle.hpp): their points are moved until it vanishes, as settled starts do it, once
+// for all layers. At the radius that the rings are fitted to the section is mirrored, as in a slip wall; quadrants are alike.
 #pragma once
 
 #include <vector>
