@@ -1,16 +1,18 @@
 #include "run/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace undex::run {
 namespace {
 
-std::vector<output::Column> energy_columns(bool gravity) {
+std::vector<output::Column> energy_columns(bool gravity, bool radiating) {
   std::vector<output::Column> all{{"time", "s"}};
   for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
                            "structure_viscous", "interface_work_given", "interface_work_received", "external"})
     all.push_back({name, "J"});
   if (gravity) all.push_back({"gravity", "J"});
+  if (radiating) all.push_back({"radiated", "J"});
   all.push_back({"total", "J"});
   all.push_back({"error", ""});
   return all;
@@ -37,8 +39,11 @@ output::LastField last_field(const Simulation& simulation, const std::string& na
 
 }  // namespace
 
-EnergyHistory::EnergyHistory(const std::filesystem::path& folder, bool gravity, bool goes_on)
-    : gravity_(gravity), path_(folder / "energy.csv"), samples_(energy_columns(gravity)) {
+EnergyHistory::EnergyHistory(const std::filesystem::path& folder, const sph::Settings& fluid, bool goes_on)
+    : gravity_(!fluid.gravity.isZero()),
+      radiating_(std::any_of(fluid.walls.begin(), fluid.walls.end(), [](const sph::Wall& wall) { return wall.radiates(); })),
+      path_(folder / "energy.csv"),
+      samples_(energy_columns(gravity_, radiating_)) {
   if (!goes_on) history_.emplace(path_, samples_.columns);
 }
 
@@ -52,6 +57,7 @@ void EnergyHistory::sample(const Simulation& simulation) {
   std::vector<double> row{simulation.time(), e.kinetic, e.internal,   e.dissipated,    e.structure_kinetic, e.elastic,
                           e.plastic,         e.viscous, e.work_given, e.work_received, e.external};
   if (gravity_) row.push_back(e.gravity);
+  if (radiating_) row.push_back(e.radiated);
   row.insert(row.end(), {e.total(), e.error()});
   history_->append(row);
   samples_.append(row);
@@ -61,7 +67,7 @@ Observer::Observer(const scene::Scene& scene, const Simulation& simulation, cons
     : scene_(scene),
       simulation_(simulation),
       probes_(scene, simulation, folder, goes_on),
-      energy_(folder, !scene.fluid.gravity.isZero(), goes_on),
+      energy_(folder, scene.fluid, goes_on),
       snapshots_(scene, simulation, folder, goes_on),
       next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
 

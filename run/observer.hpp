@@ -20,14 +20,14 @@ namespace undex::run {
 /// energy.csv: where the energy of the whole body is, and what the ledger does not account for.
 class EnergyHistory {
  public:
-  EnergyHistory(const std::filesystem::path& folder, bool gravity, bool goes_on);
+  EnergyHistory(const std::filesystem::path& folder, const sph::Settings& fluid, bool goes_on);
   void visit_state(StateVisitor& state);
   void sample(const Simulation& simulation);
   void flush() { history_->flush(); }
   const output::Samples& samples() const { return samples_; }
 
  private:
-  bool gravity_;
+  bool gravity_, radiating_;
   std::filesystem::path path_;
   output::Samples samples_;
   std::optional<output::History> history_;

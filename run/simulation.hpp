@@ -25,9 +25,10 @@ struct EnergyBalance {
   double work_given = 0, work_received = 0;                             // across the interface
   double external = 0;  // work of prescribed loads on the structure, of rigid planes on solids; the interface's is not in it
   double gravity = 0;   // its work on everything
+  double radiated = 0;  // what has left through radiating faces
   double start = 0;     // sum at the start
   double total() const {
-    return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity;
+    return kinetic + internal + dissipated + structure_kinetic + elastic + plastic + viscous - external - gravity + radiated;
   }
   double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }

@@ -103,10 +103,13 @@ std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, cons
 SeenMirrors::SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
                          const std::array<bool, 3>& symmetry)
     : walls_(walls) {
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    normal_.push_back(node_normals(walls[w].faces, walls[w].position, symmetry));
-    velocity_.push_back(footprints[w].seen(walls[w].velocity));
-  }
+  for (const MirrorWall& wall : walls) normal_.push_back(node_normals(wall.faces, wall.position, symmetry));
+  see_velocities(footprints);
+}
+
+void SeenMirrors::see_velocities(const std::vector<Footprint>& footprints) {
+  velocity_.clear();
+  for (std::size_t w = 0; w < walls_.size(); ++w) velocity_.push_back(footprints[w].seen(walls_[w].velocity));
 }
 
 BilinearPatch SeenMirrors::patch(int wall, int face) const {
@@ -123,9 +126,15 @@ WallPoint SeenMirrors::point(const WallFoot& foot) const {
   const auto& nodes = walls_[foot.wall].faces[foot.face];
   Vec3 velocity = Vec3::Zero();
   for (int c = 0; c < 4; ++c) velocity += weight[c] * velocity_[foot.wall][nodes[c]];
+  const std::vector<double>& nodal = walls_[foot.wall].pressure;
+  double pressure = 0.0;
+  for (int c = 0; c < 4 && !nodal.empty(); ++c) pressure += weight[c] * nodal[nodes[c]];
   const double here = frame.element(-foot.at.distance), there = frame.element(foot.at.distance);
-  return {
-      .foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(here > 0.0 ? there / here : 0.0)};
+  return {.foot = frame.foot,
+          .normal = frame.normal,
+          .velocity = velocity,
+          .stretch = image_volume(here > 0.0 ? there / here : 0.0),
+          .pressure = pressure};
 }
 
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {

@@ -31,7 +31,8 @@ struct WallFoot {
 /// What a mirror wall is at a foot.
 struct WallPoint {
   Vec3 foot, normal, velocity;
-  double stretch;  ///< of the volume of an image, see image_volume
+  double stretch;     ///< of the volume of an image, see image_volume
+  double pressure{};  ///< of a radiating face [Pa]
 };
 
 /// Mirror walls at one moment, with normals at their nodes and the velocities that a particle's footprint shows.
@@ -39,6 +40,9 @@ class SeenMirrors {
  public:
   SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
               const std::array<bool, 3>& symmetry);
+
+  /// The walls' velocities anew.
+  void see_velocities(const std::vector<Footprint>& footprints);
 
   BilinearPatch patch(int wall, int face) const;
   WallPoint point(const WallFoot& foot) const;

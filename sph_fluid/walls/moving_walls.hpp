@@ -20,6 +20,10 @@ struct WallPoints {
 /// A mesh in which the fluid is mirrored (wall_images.hpp).
 struct MirrorWall : WallPoints {
   std::vector<std::array<int, 4>> faces;  ///< as WetSurface has them
+  /// Of a radiating face (water/radiating_faces.hpp), at the nodes [Pa]; else empty.
+  std::vector<double> pressure{};
+
+  bool radiates() const { return !pressure.empty(); }
 };
 
 /// Dummy particles.

@@ -25,7 +25,7 @@ struct Column {
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
   bool mirrored = true, gravity = false, pushed = false, held = false, landing = false, flying = false;
   double half_width = 8, depth = 16;
-  std::string walls = "free_slip";  // "none", "no_slip", "open below"
+  std::string walls = "free_slip";  // "none", "no_slip", "open below", "radiating below"
   std::string water = "\"water-tait\"", plate_material = "\"al-5083-h116\"";
   std::map<std::string, std::string> scheme{{"courant", "0.1"}, {"precision", "\"full\""}};
 
@@ -72,6 +72,7 @@ void Column::describe_fluid(std::ostream& out) const {
   out << "[[walls]]\nname = \"duct\"\nshape = " << box(-depth, 40) << "\ncondition = \""
       << (walls == "no_slip" ? "no_slip" : "free_slip") << "\"\nfaces = {" << end("high") << " = \"open\"";
   if (walls == "open below") out << ", " << end("low") << " = \"open\"";
+  if (walls == "radiating below") out << ", " << end("low") << " = \"radiating\"";
   out << "}\n";
 }
 
@@ -191,6 +192,7 @@ const std::vector<Feature>& features() {
       {"walls", "no_walls", [](Column& c) { c.walls = "none"; }},
       {"walls", "no_slip_walls", [](Column& c) { c.walls = "no_slip"; }},
       {"walls", "open_below", [](Column& c) { c.walls = "open below"; }},
+      {"walls", "radiating_below", [](Column& c) { c.walls = "radiating below"; }},
       water("\"water-tait-cutoff\"", "cutoff"),
       water("\"water-tait-isentropic\"", "isentropic_mixture"),
       water("\"water-steinberg\"", "mie_gruneisen"),
