@@ -101,8 +101,8 @@ std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, cons
 }  // namespace
 
 SeenMirrors::SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
-                         const std::array<bool, 3>& symmetry)
-    : walls_(walls) {
+                         const std::array<bool, 3>& symmetry, double spacing)
+    : walls_(walls), spacing_(spacing) {
   for (const MirrorWall& wall : walls) normal_.push_back(node_normals(wall.faces, wall.position, symmetry));
   see_velocities(footprints);
 }
@@ -126,15 +126,26 @@ WallPoint SeenMirrors::point(const WallFoot& foot) const {
   const auto& nodes = walls_[foot.wall].faces[foot.face];
   Vec3 velocity = Vec3::Zero();
   for (int c = 0; c < 4; ++c) velocity += weight[c] * velocity_[foot.wall][nodes[c]];
-  const std::vector<double>& nodal = walls_[foot.wall].pressure;
-  double pressure = 0.0;
-  for (int c = 0; c < 4 && !nodal.empty(); ++c) pressure += weight[c] * nodal[nodes[c]];
+  const std::vector<double>& lead = walls_[foot.wall].pressure;
+  const int depths = int(lead.size() / walls_[foot.wall].position.size());
+  double ahead = 0.0;
+  for (int c = 0; c < 4 && depths > 0; ++c) {
+    const auto [layer, share] = layer_of(foot.at.distance, spacing_, depths);
+    const double* at = lead.data() + std::size_t(nodes[c]) * depths + layer;
+    ahead += weight[c] * ((1.0 - share) * at[0] + share * at[1]);
+  }
   const double here = frame.element(-foot.at.distance), there = frame.element(foot.at.distance);
   return {.foot = frame.foot,
           .normal = frame.normal,
           .velocity = velocity,
           .stretch = image_volume(here > 0.0 ? there / here : 0.0),
-          .pressure = pressure};
+          .lead = ahead};
+}
+
+std::pair<int, double> layer_of(double distance, double spacing, int count) {
+  const double at = std::clamp(distance / spacing - 0.5, 0.0, count - 1.0);
+  const int layer = std::min(int(at), count - 2);
+  return {layer, at - layer};
 }
 
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {

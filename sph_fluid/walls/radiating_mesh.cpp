@@ -41,7 +41,7 @@ class Mesher {
       if (mesh_.wall.faces.empty()) continue;  // beyond a symmetry plane
       mesh_.wall.velocity.assign(mesh_.wall.position.size(), Vec3::Zero());
       mesh_.wall.impulse = mesh_.wall.velocity;
-      mesh_.wall.pressure.assign(mesh_.wall.position.size(), 0.0);
+      mesh_.wall.pressure.assign(mesh_.wall.position.size() * seen_depths, 0.0);
       faces.push_back(std::move(mesh_));
     }
   }
@@ -97,6 +97,7 @@ class Mesher {
   void of_box(const Box& box, const std::string& face) {
     const int axis = face[0] - 'x', dimension = settings_.dimension;
     const bool high = face.ends_with("_high");
+    if (axis >= dimension) return;
     if (!high && settings_.symmetry.axis[axis] && box.low[axis] <= 0.0) return;
     Vec3 low = box.low, length = box.high - box.low;
     for (int a = 0; a < dimension; ++a)

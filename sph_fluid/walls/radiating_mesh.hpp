@@ -10,6 +10,9 @@
 
 namespace undex::sph {
 
+/// Layers of one spacing before a face, by whose pressures images behind it know theirs.
+inline constexpr int seen_depths = 5;
+
 /// A radiating face of a container as a wall that moves.
 struct RadiatingMesh {
   std::string name;  ///< in words

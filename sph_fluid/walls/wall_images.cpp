@@ -25,6 +25,14 @@ void turn(Particles& particles, std::size_t i, const Crossing& wall, const Vec3&
   particles.x[i] = wall.place[0], particles.y[i] = wall.place[1], particles.z[i] = wall.place[2];
 }
 
+/// Half of what the pressure of an image is more than its particle's [Pa]: the lead of a radiating face, and half of the weight between
+/// both.
+double lead_of(const WallFoot& foot, const WallPoint& wall, const FluidRow& row, const std::vector<MirrorWall>& walls,
+               const Settings& settings) {
+  if (!walls[foot.wall].radiates()) return 0.0;
+  return wall.lead + row.rho * foot.at.distance * settings.gravity.dot(wall.normal);
+}
+
 PointLoads unloaded(const std::vector<MirrorWall>& walls) {
   PointLoads loads;
   for (const MirrorWall& wall : walls) loads.emplace_back(wall.position.size(), Vec3::Zero());
@@ -37,7 +45,7 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
                        const Particles& particles, std::span<const ParticleRange> ranges,
                        const std::function<void(std::span<const WallFoot>)>& on_feet) {
   see_footprints(settings, walls);
-  SeenMirrors seen(walls, footprints_, settings.symmetry.axis);
+  SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);
   feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing);
   if (on_feet) {
     on_feet(feet_);
@@ -110,7 +118,8 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
     if (foot->at.distance <= 0.0) continue;
     const WallPoint wall = seen.point(*foot);
     const Vec3 place = wall.foot + foot->at.distance * wall.normal;
-    if (walls[foot->wall].radiates()) mirror_in_next(*foot, wall, walls, settings, mark, images);
+    if (walls[foot->wall].radiates())
+      mirror_in_next(*foot, wall, walls, settings, lead_of(*foot, wall, particles.predicted[i], walls, settings), mark, images);
     images.push_back({.owner = i,
                       .parent = -1,
                       .foot = int(foot - feet_.begin()),
@@ -119,7 +128,7 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                       .normal = wall.normal,
                       .wall_velocity = wall.velocity,
                       .radiating = walls[foot->wall].radiates(),
-                      .wall_pressure = wall.pressure});
+                      .lead = lead_of(*foot, wall, particles.predicted[i], walls, settings)});
   }
   for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
@@ -139,7 +148,7 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
 }
 
 void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls,
-                                const Settings& settings, std::size_t mark, std::vector<Image>& images) const {
+                                const Settings& settings, double lead, std::size_t mark, std::vector<Image>& images) const {
   for (std::size_t k = mark, count = images.size(); k < count; ++k) {
     bool next = true;
     for (int c = int(k); c >= 0 && next; c = images[c].parent) {
@@ -154,7 +163,7 @@ void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, con
     image.stretch = face.stretch * (settings.axisymmetric ? image.place[0] / images[k].place[0] : 1.0);
     image.normal = face.normal;
     image.wall_velocity = face.velocity;
-    image.wall_pressure = face.pressure;
+    image.lead = lead;
     images.push_back(image);
   }
 }
@@ -196,7 +205,7 @@ WallShare WallImages::put_back(const Settings& settings, const SlipFaces& faces,
 WallShare WallImages::put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
                                             PointLoads& received) const {
   if (feet_.empty()) return {};
-  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis);  // walls may have moved since
+  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);  // walls may have moved since
   const double far = settings.lattice.spacing;
   PointLoads given = unloaded(walls);
   WallShare work;
@@ -240,7 +249,7 @@ void WallImages::reflect_rows(const Particles& particles, const RingKernel* ring
     FluidRow row = particles.predicted[images_[c].owner];
     for_each_mirror(c, [&](const Image& image) {
       reflect(row, image.normal, image.wall_velocity, image.stretch);
-      if (image.radiating) row.p = 2.0 * image.wall_pressure - row.p;
+      row.p += 2.0 * image.lead;
     });
     if (rings) ring_[slot_[c]] = ring_of(c, particles, *rings, row);
     rows_[slot_[c]] = row;

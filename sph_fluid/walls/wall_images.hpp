@@ -71,7 +71,7 @@ class WallImages {
     double stretch;                     // volume over the parent's
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
     bool radiating = false;
-    double wall_pressure = 0;  // of a radiating face [Pa]
+    double lead = 0;  // half of what its pressure is more than its parent's [Pa]
   };
   void see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls);
   /// Appends the images of particle i to `images`, whose places the parents are.
@@ -91,7 +91,7 @@ class WallImages {
                                   PointLoads& received) const;
   /// Appends the images of the images from `mark` on in the radiating face of this foot: edges of such faces are right angles.
   void mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls, const Settings& settings,
-                      std::size_t mark, std::vector<Image>& images) const;
+                      double lead, std::size_t mark, std::vector<Image>& images) const;
   /// What an image has received goes to whom it shows; the wall has its share.
   struct Left {
     Vec3 force;    // [N]

@@ -46,11 +46,6 @@ double RadiatingFaces::Rest::pressure_at(const Vec3& x, const Settings& settings
   return column ? column->pressure((x - *body.level).dot(settings.gravity) / settings.gravity.norm()) : pressure;
 }
 
-double RadiatingFaces::rest_pressure(std::size_t face, std::size_t node) const {
-  const std::size_t b = body_of(face, node);
-  return rest_[b].pressure_at(wall(face).position[node], settings_, settings_.bodies[b]);
-}
-
 void RadiatingFaces::see(const ParticleSet& set, std::span<const WallFoot> feet, double time) {
   const bool first = rest_.empty();
   if (first) begin(set, feet);
@@ -123,20 +118,29 @@ RadiatingFaces::SeenByNodes RadiatingFaces::look(const ParticleSet& set, std::sp
     while (foot.particle >= set.groups[g].end) ++g;
     const Group& group = set.groups[g];
     const double share = 1.0 - std::max(foot.at.distance, 0.0) / (depth * group.spacing);
-    if (std::size_t(foot.wall) >= faces_.size() || share <= 0.0) continue;
+    if (std::size_t(foot.wall) >= faces_.size()) continue;
     const FluidRow& q = set.particles.predicted[foot.particle];
     const Rest& rest = rest_[g];
     const Vec3 velocity(q.vx, q.vy, settings_.axisymmetric ? 0.0 : q.vz);
     const double over = q.p - rest.pressure_at(place_of(set.particles, foot.particle), settings_, *group.body);
     const double impedance = 0.5 * (q.rho * q.c + rest.density * rest.sound), wave = over / impedance;
     const double enthalpy = 2.0 * over / (q.rho + rest.density);
+    const auto [layer, upper] = layer_of(foot.at.distance, settings_.lattice.spacing, seen_depths);
     const auto corner = bilinear_weights(foot.at.u, foot.at.v);
     const auto& nodes = faces_[foot.wall].wall.faces[foot.face];
     for (int c = 0; c < 4; ++c) {
       Seen& node = seen[foot.wall][nodes[c]];
       const int medium = medium_[foot.wall][nodes[c]];
+      const bool foreign = medium >= 0 && medium != int(group.material);
+      if (!foreign)
+        for (const int k : {0, 1}) {
+          const double part = corner[c] * q.volume * (k == 0 ? 1.0 - upper : upper);
+          node.in_layer[layer + k] += part;
+          node.over[layer + k] += part * over;
+        }
+      if (share <= 0.0) continue;
       const double w = corner[c] * share * q.volume;
-      if (medium >= 0 && medium != int(group.material)) {
+      if (foreign) {
         node.foreign += w;
         continue;
       }
@@ -148,11 +152,15 @@ RadiatingFaces::SeenByNodes RadiatingFaces::look(const ParticleSet& set, std::sp
     }
   }
   for (auto& nodes : seen)
-    for (Seen& node : nodes)
+    for (Seen& node : nodes) {
       if (node.weight > 0.0) {
         const double per = 1.0 / node.weight;
         node.wave *= per, node.enthalpy *= per, node.impedance *= per, node.velocity *= per;
       }
+      double before = node.wave * node.impedance;  // an empty layer is as the one before it
+      for (int k = 0; k < seen_depths; ++k)
+        before = node.over[k] = node.in_layer[k] > 0.0 ? node.over[k] / node.in_layer[k] : before;
+    }
   return seen;
 }
 
@@ -200,7 +208,7 @@ std::vector<double> RadiatingFaces::answer(std::size_t face, const std::vector<S
         if (wet(m)) sum[n] += speed[m], waves[n] += wave[m], count[n] += 1.0;
   for (std::size_t n = 0; n < seen.size(); ++n) {
     if (!wet(n) && count[n] > 0.0) speed[n] = sum[n] / count[n], wave[n] = waves[n] / count[n];
-    wall(face).pressure[n] = rest_pressure(face, n) + wave[n];
+    for (int k = 0; k < seen_depths; ++k) wall(face).pressure[n * seen_depths + k] = wave[n] - seen[n].over[k];
   }
   return speed;
 }
@@ -273,6 +281,7 @@ Vec3 RadiatingFaces::momentum() const {
 
 void RadiatingFaces::visit_state(StateVisitor& state) {
   if (faces_.empty()) return;
+  for (std::size_t f = 0; f < faces_.size(); ++f) state("pressure " + std::to_string(f), wall(f).pressure);
   state("velocity before", state_.velocity_before);
   state("flow", state_.flow);
   state("rate", state_.rate);

@@ -9,6 +9,7 @@
 // to the normal is known from the source; without one the motion along the face shows it, sin^2 a = <u_t^2>/<q^2>.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,8 @@ class RadiatingFaces {
     double wave = 0, enthalpy = 0;   ///< q [m/s], h [m^2/s^2]
     double impedance = 0;            ///< (Z + Z0)/2 [Pa s/m]
     Vec3 velocity = Vec3::Zero();    ///< [m/s]
+    /// Weights of the layers before the face and their pressures over that at rest [Pa].
+    std::array<double, seen_depths> in_layer{}, over{};
   };
   using SeenByNodes = std::vector<std::vector<Seen>>;
   /// A body at rest.
@@ -79,7 +82,6 @@ class RadiatingFaces {
   /// Speed of a face's nodes along their normals [m/s], and their pressures.
   std::vector<double> answer(std::size_t face, const std::vector<Seen>& seen, double time);
   std::size_t body_of(std::size_t face, std::size_t node) const { return std::size_t(std::max(0, body_[face][node])); }
-  double rest_pressure(std::size_t face, std::size_t node) const;
   void require_mesh(std::size_t face, const std::vector<Vec3>& moved) const;
 
   const Settings& settings_;

@@ -254,8 +254,8 @@ TEST(Lagrangian1D, TransmittingEndLetsSoundOut) {
   EXPECT_GT(start, 0.0);
 }
 
-/// A layer of 10 cm at a higher pressure in water of 1 m or of 4 m: the wave leaves the short one as it goes on in the long one, and
-/// in a sphere so does the flow after it.
+/// A layer of 10 cm at a higher pressure in water of 1 m or of 4 m: the wave leaves the short one as it goes on in the long one,
+/// and in a sphere so does the flow after it.
 TEST(Lagrangian1D, RadiatingEndIsWaterWithoutEnd) {
   const FluidLaw law = fluid("water-tait");
   const double rho = materials::density_at(law, 1e5, 0.0);

@@ -16,7 +16,7 @@ double sound(const Body& water) {
   return std::visit([&](const auto& law) { return law.evaluate(start_density(water), 0.0).sound_speed; }, water.material.law);
 }
 
-/// A strip of water, four spacings wide, with an exponential wave of 20 spacings that runs along x from 30 spacings on.
+/// A strip of water, four spacings wide, with an exponential wave of 40 spacings that runs along x from 30 spacings on.
 Settings strip(double peak, int length, FaceCondition end, SchemeName scheme) {
   Settings settings;
   settings.dimension = 2;
@@ -29,7 +29,7 @@ Settings strip(double peak, int length, FaceCondition end, SchemeName scheme) {
   const double rho0 = start_density(water), z0 = rho0 * sound(water);
   const auto start = std::make_shared<StartField>();
   start->state = [=, law = water.material.law](const Vec3& x, double) {
-    const double behind = (30 * dx - x[0]) / (20 * dx), over = behind > 0 ? peak * std::exp(-behind) : 0.0;
+    const double behind = (30 * dx - x[0]) / (40 * dx), over = behind > 0 ? peak * std::exp(-behind) : 0.0;
     const double rho = over > 0 ? materials::density_at(law, rest + over, 0.0) : rho0;
     const double z = rho * std::visit([&](const auto& each) { return each.evaluate(rho, 0.0).sound_speed; }, law);
     return StartState{.density = rho, .energy = 0.0, .velocity = 2.0 * over / (z + z0) * Vec3::UnitX()};
@@ -44,18 +44,18 @@ Settings strip(double peak, int length, FaceCondition end, SchemeName scheme) {
 /// A plane wave that meets the face at right angles leaves: what comes back is less than 1 % of its peak at any strength.
 TEST(Radiating, PlaneWaveLeaves) {
   for (const double peak : {1e5, 1e7, 1e8}) {
-    Fluid here(strip(peak, 50, FaceCondition::radiating, SchemeName::riemann));
-    Fluid longer(strip(peak, 100, FaceCondition::free_slip, SchemeName::riemann));
+    Fluid here(strip(peak, 80, FaceCondition::radiating, SchemeName::riemann));
+    Fluid longer(strip(peak, 130, FaceCondition::free_slip, SchemeName::riemann));
     const Ledger start = here.ledger();
-    const Vec3 probe(42 * dx, 2 * dx, 0);
+    const Vec3 probe(70 * dx, 2 * dx, 0);
     double difference = 0;
-    for (const double end = 60 * dx / 1500; here.time() < end;) {
+    for (const double end = 95 * dx / 1500; here.time() < end;) {
       const double step = std::min(here.step_limit().step, longer.step_limit().step);
       here.step(step);
       longer.step(step);
       difference = std::max(difference, std::abs(here.at(probe).pressure - longer.at(probe).pressure));
     }
-    EXPECT_LT(difference, 1.2e-2 * peak) << peak;
+    EXPECT_LT(difference, 1e-2 * peak) << peak;
     const Ledger end = here.ledger();
     EXPECT_GT(end.radiated, 0.5 * start.kinetic);
     EXPECT_NEAR((total(end) + end.radiated - total(start)) / start.kinetic, 0.0, 0.02) << peak;
