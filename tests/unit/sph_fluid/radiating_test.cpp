@@ -67,6 +67,7 @@ TEST(Radiating, PlaneWaveLeaves) {
 TEST(Radiating, MomentumLeavesThroughTheFaces) {
   for (const SchemeName scheme : {SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan}) {
     Settings settings = strip(1e7, 40, FaceCondition::radiating, scheme);
+    settings.numerics.signal = 0;  // no one is left out, which would cost momentum of that share
     for (auto& [face, condition] : settings.walls[0].faces) condition = FaceCondition::radiating;
     Fluid fluid(settings);
     const Ledger start = fluid.ledger();
