@@ -2,8 +2,8 @@
 // velocity and the pressure that the same medium, at rest and without end behind it, gives it:
 //   v . n = (u + (q + w) cos a)/2,   p = p0 + (Z + Z0)/2 (q + u/cos a - w)/2,   q = 2 (p - p0)/(Z + Z0),   Z = rho c,
 // u, p and Z on the right being the fluid's before the face (u along its normal n), p0 and Z0 those at rest. An outgoing simple
-// wave has u = (q + w) cos a, so that nothing comes back; the means are the Riemann problem of the face, and take in what does not
-// fit. Spherical waves from a source at the distance r leave an afterflow w behind,
+// wave has u = (q + w) cos a, so that nothing comes back; the means are the Riemann problem of the face, and take in what does
+// not fit. Spherical waves from a source at the distance r leave an afterflow w behind,
 //   dw/dt = k (h + v^2/2)/r - 2 k w v/r,   h = 2 (p - p0)/(rho + rho0),   k = 1 (1/2 of cylindrical ones, in a plane),
 // v being the velocity away from the source: exact for sound, and for incompressible flow at any speed. The angle a of the wave
 // to the normal is known from the source; without one the motion along the face shows it, sin^2 a = <u_t^2>/<q^2>.
