@@ -25,8 +25,8 @@ void turn(Particles& particles, std::size_t i, const Crossing& wall, const Vec3&
   particles.x[i] = wall.place[0], particles.y[i] = wall.place[1], particles.z[i] = wall.place[2];
 }
 
-/// Half of what the pressure of an image is more than its particle's [Pa]: the lead of a radiating face, and half of the weight between
-/// both.
+/// Half of what the pressure of an image is more than its particle's [Pa]: the lead of a radiating face, and half of the weight
+/// between both.
 double lead_of(const WallFoot& foot, const WallPoint& wall, const FluidRow& row, const std::vector<MirrorWall>& walls,
                const Settings& settings) {
   if (!walls[foot.wall].radiates()) return 0.0;
