@@ -20,8 +20,8 @@ struct WallPoints {
 /// A mesh in which the fluid is mirrored (wall_images.hpp).
 struct MirrorWall : WallPoints {
   std::vector<std::array<int, 4>> faces;  ///< as WetSurface has them
-  /// Of a radiating face (water/radiating_faces.hpp), else empty: its pressure less that of the layers before it [Pa], per node and
-  /// layer. An image has twice that more than its particle.
+  /// Of a radiating face (water/radiating_faces.hpp), else empty: its pressure less that of the layers before it [Pa], per node
+  /// and layer. An image has twice that more than its particle.
   std::vector<double> pressure{};
 
   bool radiates() const { return !pressure.empty(); }
