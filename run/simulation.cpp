@@ -17,8 +17,8 @@ namespace {
 /// The mass of finite elements cannot change.
 bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
 
-/// Axes along which a wall pushes the fluid unbooked: those of its rigid faces' normals where the fluid is mirrored in them; all, where
-/// dummy particles stand behind them.
+/// Axes along which a wall pushes the fluid unbooked: those of its rigid faces' normals where the fluid is mirrored in them; all,
+/// where dummy particles stand behind them.
 std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
   std::array<bool, 3> pushed{};
   for (int a = 0; a < 3; ++a) {
