@@ -67,8 +67,8 @@ enum class Boundary {
   rigid,  ///< does not move; also the centre and a plane of symmetry
   free,   ///< pressure held at the given value, zero unless told otherwise
   /// Lets simple waves of any strength out into the same fluid, at rest and without end; in a sphere with their afterflow w:
-  /// u = q + w, q = 2 (p - p_start)/(Z + Z_start), dw/dt = k (h + u^2/2)/r - 2 k w u/r, h = 2 (p - p_start)/(rho + rho_start), k = 1
-  /// (1/2 in a cylinder, 0 in a plane). An inner end has no afterflow.
+  /// u = q + w, q = 2 (p - p_start)/(Z + Z_start), dw/dt = k (h + u^2/2)/r - 2 k w u/r, h = 2 (p - p_start)/(rho + rho_start),
+  /// k = 1 (1/2 in a cylinder, 0 in a plane). An inner end has no afterflow.
   radiating,
   transmitting,  ///< lets normal sound waves of the last cell out: p = p_start + rho c (u - u_start)
 };
