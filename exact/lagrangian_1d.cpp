@@ -159,6 +159,9 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   pressures(0, n, 0.0, r_, u_, rho_, e_, p_, q_);
   inner_start_pressure_ = p_[0];
   outer_start_pressure_ = p_[n - 1];
+  inner_start_density_ = rho_[0], outer_start_density_ = rho_[n - 1];
+  inner_start_sound_ = c_[0], outer_start_sound_ = c_[n - 1];
+  if (outer_ == Boundary::radiating && dimension_ > 1) flow_ = u_[n];
   fill_new();
   active_ = n;
   update_active();
@@ -182,13 +185,25 @@ double Lagrangian1D::middle(int cell) const {
   return dimension_ == 2 ? std::sqrt(volume) : std::cbrt(volume);
 }
 
-double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound, double time) const {
+double Lagrangian1D::outside_pressure(bool outer, double u, double rho, double sound, double time, double flow) const {
   if ((outer ? outer_ : inner_) == Boundary::free) {
     if (!outer) return options_.inner_pressure;
     return options_.outer_pressure + (options_.outer_load ? options_.outer_load(time) : 0.0);
   }
+  if ((outer ? outer_ : inner_) == Boundary::radiating) {
+    const double start = outer ? outer_start_density_ * outer_start_sound_ : inner_start_density_ * inner_start_sound_;
+    const double impedance = 0.5 * (rho * sound + start);
+    return outer ? outer_start_pressure_ + impedance * (u - flow) : inner_start_pressure_ - impedance * u;
+  }
   if (outer) return outer_start_pressure_ + rho * sound * (u - outer_start_velocity_);
   return inner_start_pressure_ - rho * sound * (u - inner_start_velocity_);
+}
+
+double Lagrangian1D::flow_rate(double r, double u, double rho, double sound, double flow) const {
+  if (outer_ != Boundary::radiating || dimension_ == 1) return 0.0;
+  const double over = outside_pressure(true, u, rho, sound, time_, flow) - outer_start_pressure_;
+  const double enthalpy = 2.0 * over / (rho + outer_start_density_);
+  return (dimension_ == 3 ? 1.0 : 0.5) * (enthalpy + 0.5 * u * u - 2.0 * flow * u) / r;
 }
 
 void Lagrangian1D::pressures(int begin, int end, double time, const std::vector<double>& r, const std::vector<double>& u,
@@ -423,14 +438,17 @@ void Lagrangian1D::step(double dt) {
   if (solid) advance_deviators(cell_end, dt);
   pressures(0, cell_end, time_ + dt, r_new_, u_new_, rho_new_, e_new_, p_new_, q_new_);
 
-  if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0], time_ + dt));
-  if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1], time_ + dt));
+  const double flow_rise = dt * flow_rate(r_[n], u_[n], rho_[n - 1], c_[n - 1], flow_), ahead = flow_ + flow_rise;
+  if (!held_inner) below = 0.5 * (below + outside_pressure(false, u_new_[0], rho_new_[0], c_[0], time_ + dt, 0.0));
+  if (!held_outer) above = 0.5 * (above + outside_pressure(true, u_new_[n], rho_new_[n - 1], c_[n - 1], time_ + dt, ahead));
   for (int i = 0; i < node_end; ++i) area_[i] = mean_area(r_[i], r_new_[i]);
   const auto total_mean = [&](int i) { return 0.5 * (p_[i] + q_[i] + p_new_[i] + q_new_[i]); };
   if (solid) deviator_forces(cell_end, 0.5, r_new_);
   accelerate(total_mean, front_is_fitted() ? 0.5 * (front_.speed + front_at(u_new_[front_cell_ + 1]).speed) : 0.0);
   compress(total_mean);
   healthy();
+  if (outer_ == Boundary::radiating)
+    flow_ += 0.5 * (flow_rise + dt * flow_rate(r_new_[n], u_new_[n], rho_new_[n - 1], c_[n - 1], ahead));
   if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
   if (!held_outer && node_end > n) boundary_work_ += above * area_[n] * (0.5 * dt * (u_[n] + u_new_[n]));
   if (options_.gravity != 0.0)
@@ -531,6 +549,7 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   state("time", time_);
   state("last step", last_step_);
   state("boundary work", boundary_work_);
+  state("flow", flow_);
   state("steps", steps_);
   state("active", active_);
   state("front cell", front_cell_);

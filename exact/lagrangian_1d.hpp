@@ -64,8 +64,12 @@ struct Layer {
 double grading(double length, int cells, double first);
 
 enum class Boundary {
-  rigid,         ///< does not move; also the centre and a plane of symmetry
-  free,          ///< pressure held at the given value, zero unless told otherwise
+  rigid,  ///< does not move; also the centre and a plane of symmetry
+  free,   ///< pressure held at the given value, zero unless told otherwise
+  /// Lets simple waves of any strength out into the same fluid, at rest and without end; in a sphere with their afterflow w:
+  /// u = q + w, q = 2 (p - p_start)/(Z + Z_start), dw/dt = k (h + u^2/2)/r - 2 k w u/r, h = 2 (p - p_start)/(rho + rho_start),
+  /// k = 1 (1/2 in a cylinder, 0 in a plane). An inner end has no afterflow.
+  radiating,
   transmitting,  ///< lets normal sound waves of the last cell out: p = p_start + rho c (u - u_start)
 };
 
@@ -236,7 +240,13 @@ class Lagrangian1D {
   double volume_to(double radius) const;           // enclosed [m^3]
   double mean_area(double from, double to) const;  // swept volume over distance [m^2]
   double middle(int cell) const;                   // radius that halves the cell's volume [m]
-  double outside_pressure(bool outer, double u, double rho, double sound, double time) const;
+  double outside_pressure(bool outer, double u, double rho, double sound, double time) const {
+    return outside_pressure(outer, u, rho, sound, time, flow_);
+  }
+  /// `flow`: the afterflow at a radiating outer end [m/s], then.
+  double outside_pressure(bool outer, double u, double rho, double sound, double time, double flow) const;
+  /// dw/dt of it [m/s^2].
+  double flow_rate(double r, double u, double rho, double sound, double flow) const;
   /// Pressure and artificial pressure of the cells from `begin` to below `end`.
   void pressures(int begin, int end, double time, const std::vector<double>& r, const std::vector<double>& u,
                  const std::vector<double>& rho, const std::vector<double>& e, std::vector<double>& p, std::vector<double>& q);
@@ -299,6 +309,8 @@ class Lagrangian1D {
   std::vector<double> cell_mass_, node_mass_, start_volume_, start_density_, start_middle_;
   std::vector<int> cell_layer_;
   double inner_start_pressure_ = 0.0, outer_start_pressure_ = 0.0;
+  double inner_start_density_ = 0.0, outer_start_density_ = 0.0, inner_start_sound_ = 0.0, outer_start_sound_ = 0.0;
+  double flow_ = 0.0;  // w [m/s]
   double inner_start_velocity_ = 0.0, outer_start_velocity_ = 0.0;
   // Follows from the state.
   std::vector<double> rho_, p_, q_, c_, viscous_sound_;

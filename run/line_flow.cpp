@@ -76,7 +76,11 @@ exact::Lagrangian1D mesh_of(const scene::Scene& scene, const scene::Line& line) 
   if (follows) options.front_width = [line, spacing](double radius) { return line.front_width(radius, spacing); };
   options.outer_pressure = line.outside_pressure;
   options.inner_pressure = options.ambient = scene.fluid.surroundings.pressure;
-  const auto end = [&](int which) { return line.closed[which] ? exact::Boundary::rigid : exact::Boundary::free; };
+  const auto end = [&](int which) {
+    return line.closed[which]      ? exact::Boundary::rigid
+           : line.radiating[which] ? exact::Boundary::radiating
+                                   : exact::Boundary::free;
+  };
   try {
     return {scene.geometry == scene::Geometry::spherical ? 3 : 1, std::move(layers), end(0), end(1), options};
   } catch (const std::logic_error& mistake) {
@@ -169,7 +173,8 @@ const LineLedger& LineFlow::ledger() const {
   all.elastic -= all.plastic;
   all.dissipated = mesh_.barotropic_heat();
   all.internal -= all.dissipated;
-  all.external = -mesh_.boundary_work();
+  if (line_.radiating[0] || line_.radiating[1]) all.radiated = mesh_.boundary_work();
+  else all.external = -mesh_.boundary_work();
   ledger_ = all;
   return *ledger_;
 }
@@ -324,7 +329,7 @@ std::vector<double> LineFlow::field(const std::string& name) const {
 }
 
 std::string LineFlow::remark() const {
-  if (reached_end_ < 0) return "";
+  if (reached_end_ < 0 || line_.radiating[1]) return "";
   char text[300];
   std::snprintf(
       text, sizeof text,

@@ -1,11 +1,12 @@
 #include "run/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace undex::run {
 namespace {
 
-std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool obstacles) {
+std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool obstacles, bool radiating) {
   std::vector<output::Column> all{{"time", "s"}};
   for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
                            "structure_viscous", "interface_work_given", "interface_work_received", "external"})
@@ -13,6 +14,7 @@ std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool
   if (gravity) all.push_back({"gravity", "J"});
   if (surroundings) all.push_back({"surroundings", "J"});
   if (obstacles) all.push_back({"obstacle_kinetic", "J"});
+  if (radiating) all.push_back({"radiated", "J"});
   all.push_back({"total", "J"});
   all.push_back({"error", ""});
   return all;
@@ -43,8 +45,10 @@ EnergyHistory::EnergyHistory(const std::filesystem::path& folder, const scene::S
     : gravity_(!scene.fluid.gravity.isZero()),
       surroundings_(scene.fluid.surroundings.pressure > 0),
       obstacles_(!scene.obstacles.empty()),
+      radiating_(std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(),
+                             [](const sph::Wall& wall) { return wall.radiates(); })),
       path_(folder / "energy.csv"),
-      samples_(energy_columns(gravity_, surroundings_, obstacles_)) {
+      samples_(energy_columns(gravity_, surroundings_, obstacles_, radiating_)) {
   if (!goes_on) history_.emplace(path_, samples_.columns);
 }
 
@@ -60,6 +64,7 @@ void EnergyHistory::sample(const Simulation& simulation) {
   if (gravity_) row.push_back(e.gravity);
   if (surroundings_) row.push_back(e.surroundings);
   if (obstacles_) row.push_back(e.obstacle_kinetic);
+  if (radiating_) row.push_back(e.radiated);
   row.insert(row.end(), {e.total(), e.error()});
   history_->append(row);
   samples_.append(row);

@@ -27,7 +27,7 @@ class EnergyHistory {
   const output::Samples& samples() const { return samples_; }
 
  private:
-  bool gravity_, surroundings_, obstacles_;
+  bool gravity_, surroundings_, obstacles_, radiating_;
   std::filesystem::path path_;
   output::Samples samples_;
   std::optional<output::History> history_;

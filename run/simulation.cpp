@@ -17,15 +17,15 @@ namespace {
 /// The mass of finite elements cannot change.
 bool in_particles(const std::unique_ptr<DeformableBody>& body) { return body->size().particles > 0; }
 
-/// Axes along which a wall pushes the fluid: those of its closed faces' normals where the fluid is mirrored in them; all, where
-/// dummy particles stand behind them.
+/// Axes along which a wall pushes the fluid unbooked: those of its rigid faces' normals where the fluid is mirrored in them; all,
+/// where dummy particles stand behind them.
 std::array<bool, 3> pushed_by(const sph::Wall& wall, bool mirrors) {
   std::array<bool, 3> pushed{};
   for (int a = 0; a < 3; ++a) {
     const auto closed = [&](const std::string& face) {
       const auto found = wall.faces.find(face);
       if (found == wall.faces.end()) return true;
-      return found->second != sph::FaceCondition::open;
+      return found->second != sph::FaceCondition::open && found->second != sph::FaceCondition::radiating;
     };
     if (std::holds_alternative<Sphere>(wall.container)) pushed[a] = closed("side");
     else if (const auto* round = std::get_if<Cylinder>(&wall.container))
@@ -46,7 +46,8 @@ std::array<bool, 3> balanced_axes(const scene::Scene& scene) {
   for (int a = 0; a < 3; ++a) balanced[a] = a < scene.fluid.dimension && !scene.fluid.symmetry.axis[a];
   if (on_a_line(scene.geometry)) {
     const scene::Line line = scene::line_of(scene);
-    balanced[0] = scene.geometry == scene::Geometry::plane && !line.closed[0] && !line.closed[1];
+    balanced[0] = scene.geometry == scene::Geometry::plane;
+    for (const int end : {0, 1}) balanced[0] = balanced[0] && !line.closed[end] && !line.radiating[end];
     return {balanced[0], false, false};
   }
   const bool mirrors = sph::mirrors_fluid(scene.fluid.numerics.scheme);
@@ -212,6 +213,7 @@ EnergyBalance Simulation::energy() const {
     e.elastic = copies_ * l.elastic;
     e.plastic = copies_ * l.plastic;
     (surrounded_ ? e.surroundings : e.external) = copies_ * l.external;
+    e.radiated = copies_ * l.radiated;
   }
   if (fluid_) {
     const sph::Ledger l = fluid_->ledger();
@@ -221,6 +223,7 @@ EnergyBalance Simulation::energy() const {
     e.work_given = copies_ * l.wall_work;
     e.gravity = copies_ * l.gravity;
     e.surroundings = copies_ * l.surroundings;
+    e.radiated = copies_ * l.radiated;
   }
   for (const auto& body : bodies_) {
     const BodyLedger l = body->ledger();
@@ -241,7 +244,7 @@ EnergyBalance Simulation::energy() const {
   }
   e.start = start_energy_;
   e.scale = std::max({std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), std::abs(e.surroundings),
-                      e.kinetic + e.structure_kinetic + e.obstacle_kinetic});
+                      std::abs(e.radiated), e.kinetic + e.structure_kinetic + e.obstacle_kinetic});
   return e;
 }
 
@@ -270,6 +273,7 @@ Vec3 Simulation::momentum() const {
 
 Vec3 Simulation::impulse() const {
   Vec3 impulse = all_mass() * (time() - start_time_) * gravity_;
+  if (fluid_) impulse -= fluid_->ledger().radiated_momentum;
   for (const auto& body : bodies_) impulse += body->ledger().impulse;
   for (const coupling::RigidObstacle& obstacle : obstacles()) impulse += obstacle.ledger().outside;
   return impulse;

@@ -29,10 +29,11 @@ struct EnergyBalance {
                             // bodies; the interface's is not in it
   double gravity = 0;       // its work on everything
   double surroundings = 0;  // work of their pressure on the fluid
+  double radiated = 0;      // what has left through radiating faces
   double start = 0;         // sum at the start
   double total() const {
     return kinetic + internal + dissipated + structure_kinetic + obstacle_kinetic + elastic + plastic + viscous - external -
-           gravity - surroundings;
+           gravity - surroundings + radiated;
   }
   double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }

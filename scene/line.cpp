@@ -124,12 +124,23 @@ class Builder {
       const auto found = wall.faces.find(face);
       return found != wall.faces.end() && found->second == sph::FaceCondition::open;
     };
+    const auto radiates = [&](const std::string& face) {
+      const auto found = wall.faces.find(face);
+      return found != wall.faces.end() && found->second == sph::FaceCondition::radiating;
+    };
     const auto meet = [&](const std::string& face, int end, double place) {
       if (is_open(face)) return;
       const double edge = end == 0 ? line_.inner() : line_.outer();
       if (end == 0 && line_.closed[0]) return;
-      if (std::abs(place - edge) <= same * (line_.outer() - line_.inner())) line_.closed[end] = true;
-      else
+      if (std::abs(place - edge) <= same * (line_.outer() - line_.inner())) {
+        (radiates(face) ? line_.radiating : line_.closed)[end] = true;
+        const LineLayer& layer = end == 0 ? line_.layers.front() : line_.layers.back();
+        if (radiates(face) &&
+            (layer.is_solid || std::holds_alternative<materials::Jwl>(scene_.fluid.bodies[layer.index].material.law)))
+          complain("walls", index, "condition",
+                   ": the layer at its radiating face \"" + face +
+                       "\" is no fluid at rest; let water (or a gas) end there, or take another condition");
+      } else
         complain("walls", index, "shape",
                  ".shape: its face \"" + face + "\" lies at " + rounded(place) + " m, and the outermost layer ends at " +
                      rounded(edge) + " m; let them meet, or open the face: a layer that comes to a wall later is not built");
@@ -187,7 +198,8 @@ class Builder {
       ahead = true;
       before = p;
     }
-    if (ahead && !line_.closed[1]) balanced = balanced && std::abs(before - line_.outside_pressure) <= line_.held;
+    if (ahead && !line_.closed[1] && !line_.radiating[1])
+      balanced = balanced && std::abs(before - line_.outside_pressure) <= line_.held;
     // The front sets out a cell ahead of the contact: a shock catches up with it, sound never would.
     constexpr double least_of_a_shock = 1e9;  // in the core [Pa]
     line_.rests_ahead = ahead && balanced && 1e3 * line_.held >= least_of_a_shock;

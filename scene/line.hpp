@@ -28,6 +28,7 @@ struct Line {
   Vec3 center = Vec3::Zero();          ///< of the spheres [m]
   std::vector<LineLayer> layers;       ///< from the inside out, each beginning where the last ends
   std::array<bool, 2> closed{};        ///< is there a rigid wall, a plane of symmetry or the middle at the inner, the outer end?
+  std::array<bool, 2> radiating{};     ///< or do waves leave there?
   double core_low = 0, core_high = 0;  ///< of the core: the first charge, or the innermost layer [m]
   bool graded = false;                 ///< do cells grow away from the core?
   /// Is all beyond the core at rest until the core's wave comes, so that the wave's front can be followed? Pressures on the two

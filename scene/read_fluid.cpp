@@ -277,6 +277,23 @@ void read_wall(const Node& node, const std::string& path, Draft& draft) {
   draft.wall_shape_good.push_back(good);
 }
 
+/// Where the waves come from that leave through radiating faces, where the scene does not say it.
+void find_sources(Draft& draft) {
+  const sph::Settings& fluid = draft.scene.fluid;
+  std::vector<const sph::Body*> found;
+  for (std::size_t i = 0; i < fluid.bodies.size(); ++i) {
+    const sph::Body& body = fluid.bodies[i];
+    const bool round = std::holds_alternative<Sphere>(body.shape.base) || std::holds_alternative<Cylinder>(body.shape.base);
+    if (draft.body_shape_good[i] && round && (std::holds_alternative<Jwl>(body.material.law) || is_gas(body.material.law)))
+      found.push_back(&body);
+  }
+  for (std::size_t w = 0; w < fluid.walls.size(); ++w) {
+    sph::Wall& wall = draft.scene.fluid.walls[w];
+    if (!wall.source && wall.radiates() && fluid.dimension > 1 && found.size() == 1)
+      wall.source = middle(found.front()->shape.base, fluid.dimension);
+  }
+}
+
 }  // namespace
 
 void complete_line(Draft& draft) {
@@ -304,6 +321,7 @@ void read_fluid(Draft& draft) {
   read_bodies(top, draft);
   const auto walls = top.tables("walls");
   for (std::size_t i = 0; i < walls.size(); ++i) read_wall(*walls[i], element_path("walls", *walls[i], i), draft);
+  find_sources(draft);
 }
 
 }  // namespace undex::scene

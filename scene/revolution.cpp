@@ -99,6 +99,8 @@ class Judge {
   void of_wall(const sph::Wall& wall) {
     const std::string path = "walls." + wall.name;
     if (const std::string why = flaw(wall.container); !why.empty()) object(path + ".shape", why);
+    if (wall.source && !is_on_axis(*wall.source))
+      object(path + ".source", "the source " + words(*wall.source) + " m lies off the axis of revolution");
     for (const auto& [face, condition] : wall.faces)
       if (condition == sph::FaceCondition::no_slip)
         object(path, "the fluid slips along walls of revolution; take \"free_slip\" (or \"open\") for the face '" + face + "'");
@@ -221,6 +223,7 @@ sph::Body meridian_of(const sph::Body& body, const Meridian& line) {
 
 sph::Wall meridian_of(const sph::Wall& wall, const Meridian& line) {
   sph::Wall meridian = wall;
+  if (wall.source) meridian.source = line.place(*wall.source);
   meridian.container = meridian_of(wall.container, line);
   if (std::holds_alternative<Sphere>(wall.container) || std::holds_alternative<Cone>(wall.container)) return meridian;
   meridian.faces.clear();

@@ -52,6 +52,7 @@ void Validator::run() {
   planes();
   obstacles();
   thin_walls();
+  radiating();
   start_time();
   for (std::size_t i = 0; i < scene_.probes.size(); ++i)
     if (draft_.probe_good[i]) probe(scene_.probes[i], *draft_.probe_nodes[i]);

@@ -63,6 +63,10 @@ class Validator {
   void walls();
   void conical(const Cone& cone, const std::string& path, const Node& node);
 
+  // validate_radiating.cpp
+  void radiating();
+  void radiating(const sph::Wall& wall, const Node& node);
+
   // validate_structure.cpp
   void structure();
   void pieces();

@@ -53,11 +53,18 @@ inline double default_courant(Integrator integrator, KernelName kernel) {
   return integrator == Integrator::ssp_rk3 ? 2.0 * leapfrog : leapfrog;
 }
 
-/// What a wall does to the flow along it.
-enum class FaceCondition { no_slip, free_slip, open };
+/// What a wall does to the flow.
+enum class FaceCondition {
+  no_slip,
+  free_slip,
+  open,       ///< no wall there
+  radiating,  ///< waves leave: it moves as the same medium without end behind it would (water/radiating_faces.hpp)
+};
 constexpr auto words(FaceCondition) {
-  return std::to_array<Word<FaceCondition>>(
-      {{"no_slip", FaceCondition::no_slip}, {"free_slip", FaceCondition::free_slip}, {"open", FaceCondition::open}});
+  return std::to_array<Word<FaceCondition>>({{"no_slip", FaceCondition::no_slip},
+                                             {"free_slip", FaceCondition::free_slip},
+                                             {"open", FaceCondition::open},
+                                             {"radiating", FaceCondition::radiating}});
 }
 
 /// How particles are laid out at the start.
@@ -259,7 +266,12 @@ struct Wall {
   std::string name;
   Primitive container;  ///< Box, Cylinder, Cone or Sphere (the fluid's side is inside)
   std::map<std::string, FaceCondition>
-      faces;  ///< box: "x_low" .. "z_high"; cylinder, cone: "side", "low", "high"; sphere: "side"
+      faces;                     ///< box: "x_low" .. "z_high"; cylinder, cone: "side", "low", "high"; sphere: "side"
+  std::optional<Vec3> source{};  ///< of the spherical waves that leave through radiating faces [m]; none: plane waves
+
+  bool radiates() const {
+    return std::any_of(faces.begin(), faces.end(), [](const auto& face) { return face.second == FaceCondition::radiating; });
+  }
 };
 template <class Visit>
 void describe(Wall& wall, Visit&& visit) {
@@ -269,10 +281,20 @@ void describe(Wall& wall, Visit&& visit) {
                    .remedy = "a box, cylinder, cone or sphere round the fluid",
                    .values = "box, cylinder, cone, sphere",
                    .meaning = "the inside"});
-  visit(ByHand{}, {.name = "condition",
-                   .rule = "\"free_slip\"",
-                   .values = "\"free_slip\", \"no_slip\", \"open\"",
-                   .meaning = "of all faces not named in `faces`; \"open\": no wall there"});
+  visit(ByHand{},
+        {.name = "condition",
+         .rule = "\"free_slip\"",
+         .values = "\"free_slip\", \"no_slip\", \"open\", \"radiating\"",
+         .meaning = "of all faces not named in `faces`; \"open\": no wall there; \"radiating\": waves leave "
+                    "([how](equations.md#radiating-faces)), of boxes, cylinders and spheres, not with scheme \"paper\""});
+  visit(wall.source,
+        {.name = "source",
+         .unit = "m",
+         .range = Range::position(),
+         .rule = "the middle of the only round charge or bubble of gas in the scene; else none",
+         .used = wall.radiates(),
+         .meaning = "of a wall with radiating faces: where the waves that leave come from. None: plane waves, whose angle to "
+                    "the face the water's motion shows"});
   visit(ByHand{}, {.name = "faces", .rule = "{}", .values = "table of face = condition", .meaning = "the faces below"});
 }
 

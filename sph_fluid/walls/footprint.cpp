@@ -50,6 +50,14 @@ Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const 
   }
 }
 
+Footprint::Footprint(std::size_t nodes) {
+  for (std::size_t n = 0; n < nodes; ++n) {
+    begin_.push_back(n);
+    shares_.push_back({.node = int(n), .mirror = 0, .weight = 1.0});
+  }
+  begin_.push_back(nodes);
+}
+
 std::vector<Vec3> Footprint::seen(std::span<const Vec3> nodal) const {
   if (begin_.empty()) return {nodal.begin(), nodal.end()};
   std::vector<Vec3> result(nodal.size(), Vec3::Zero());

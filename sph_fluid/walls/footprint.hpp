@@ -21,6 +21,8 @@ class Footprint {
   /// Of the faces' nodes at `position` [m]; `width` H [m].
   Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
             const std::array<bool, 3>& symmetry);
+  /// Of nodes that share nothing.
+  explicit Footprint(std::size_t nodes);
 
   /// S v.
   std::vector<Vec3> seen(std::span<const Vec3> nodal) const;

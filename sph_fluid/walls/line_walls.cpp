@@ -112,13 +112,15 @@ std::vector<LinedWall> line_walls(const Settings& settings) {
       const Beyond place = beyond(wall.container, x, settings.dimension);
       if (place.faces.empty() || place.distance >= depth) return;
       FaceCondition condition = FaceCondition::free_slip;
+      bool radiates = false;
       for (const std::string& face : place.faces) {
         const auto found = wall.faces.find(face);
         const FaceCondition here = found == wall.faces.end() ? FaceCondition::free_slip : found->second;
         if (here == FaceCondition::open) return;
+        radiates = radiates || here == FaceCondition::radiating;
         if (here == FaceCondition::no_slip) condition = here;
       }
-      if (condition == FaceCondition::free_slip && mirrors_fluid(settings.numerics.scheme)) return;
+      if (condition == FaceCondition::free_slip && (radiates || mirrors_fluid(settings.numerics.scheme))) return;
       LinedWall& out = result[condition == FaceCondition::no_slip ? 1 : 0];
       out.position.push_back(x);
       out.normal.push_back(place.normal);

@@ -85,12 +85,15 @@ std::vector<WallFoot> feet_on(int wall, int faces, const SeenMirrors& seen, cons
 }  // namespace
 
 SeenMirrors::SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
-                         const std::array<bool, 3>& symmetry)
-    : walls_(walls) {
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    normal_.push_back(node_normals(walls[w].faces, walls[w].position, symmetry));
-    velocity_.push_back(footprints[w].seen(walls[w].velocity));
-  }
+                         const std::array<bool, 3>& symmetry, double spacing)
+    : walls_(walls), spacing_(spacing) {
+  for (const MirrorWall& wall : walls) normal_.push_back(node_normals(wall.faces, wall.position, symmetry));
+  see_velocities(footprints);
+}
+
+void SeenMirrors::see_velocities(const std::vector<Footprint>& footprints) {
+  velocity_.clear();
+  for (std::size_t w = 0; w < walls_.size(); ++w) velocity_.push_back(footprints[w].seen(walls_[w].velocity));
 }
 
 BilinearPatch SeenMirrors::patch(int wall, int face) const {
@@ -107,10 +110,24 @@ WallPoint SeenMirrors::point(const WallFoot& foot) const {
   const auto& nodes = walls_[foot.wall].faces[foot.face];
   Vec3 velocity = Vec3::Zero();
   for (int c = 0; c < 4; ++c) velocity += weight[c] * velocity_[foot.wall][nodes[c]];
+  const std::vector<double>& lead = walls_[foot.wall].pressure;
+  const int depths = int(lead.size() / walls_[foot.wall].position.size());
+  double ahead = 0.0;
+  for (int c = 0; c < 4 && depths > 0; ++c) {
+    const auto [layer, share] = layer_of(foot.at.distance, spacing_, depths);
+    const double* at = lead.data() + std::size_t(nodes[c]) * depths + layer;
+    ahead += weight[c] * ((1.0 - share) * at[0] + share * at[1]);
+  }
   const double here = frame.element(-foot.at.distance), there = frame.element(foot.at.distance);
   // Beyond the centre of curvature in front images are as large as they may be, beyond that behind as small.
   const double ratio = here > 0.0 ? std::max(there / here, 1e-6) : 0.0;
-  return {.foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(ratio)};
+  return {.foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(ratio), .lead = ahead};
+}
+
+std::pair<int, double> layer_of(double distance, double spacing, int count) {
+  const double at = std::clamp(distance / spacing - 0.5, 0.0, count - 1.0);
+  const int layer = std::min(int(at), count - 2);
+  return {layer, at - layer};
 }
 
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/bilinear_patch.hpp"
@@ -32,21 +33,29 @@ struct WallFoot {
 struct WallPoint {
   Vec3 foot, normal, velocity;
   double stretch;  ///< of the volume of an image, see image_volume
+  double lead{};   ///< of a radiating face: MirrorWall::pressure [Pa]
 };
 
 /// Mirror walls at one moment, with normals at their nodes and the velocities that a particle's footprint shows.
 class SeenMirrors {
  public:
-  SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints,
-              const std::array<bool, 3>& symmetry);
+  SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints, const std::array<bool, 3>& symmetry,
+              double spacing);
+
+  /// The walls' velocities anew.
+  void see_velocities(const std::vector<Footprint>& footprints);
 
   BilinearPatch patch(int wall, int face) const;
   WallPoint point(const WallFoot& foot) const;
 
  private:
   const std::vector<MirrorWall>& walls_;
+  double spacing_;
   PointLoads normal_, velocity_;  // per wall and node
 };
+
+/// Between the middles of which of `count` layers of that thickness a place lies, and its share of the upper one.
+std::pair<int, double> layer_of(double distance, double spacing, int count);
 
 /// A lower bound of the distance [m] between particles within a box and any mirror wall.
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box);

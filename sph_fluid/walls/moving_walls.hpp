@@ -21,6 +21,11 @@ struct WallPoints {
 struct MirrorWall : WallPoints {
   std::vector<std::array<int, 4>> faces;  ///< as WetSurface has them
   bool rigid = false;                     ///< it moves as one: its nodes share nothing (footprint.hpp)
+  /// Of a radiating face (water/radiating_faces.hpp), else empty: its pressure less that of the layers before it [Pa], per node
+  /// and layer. An image has twice that more than its particle.
+  std::vector<double> pressure{};
+
+  bool radiates() const { return !pressure.empty(); }
 };
 
 /// Dummy particles.

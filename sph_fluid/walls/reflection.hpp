@@ -36,8 +36,16 @@ inline void reflect(GradientRow& row, const Vec3& n) {
   for (int a = 0; a < 3; ++a) row.pressure[a] = float(p[a]);
 }
 
+/// The same of an image whose pressure goes on through the wall as 2 p_wall - p.
+inline void continue_through(GradientRow& row, const Vec3& n) { reflect_symmetric(row.strain, n); }
+
 inline void reflect(CorrectedRow& row, const Vec3& n) {
   reflect(row.gradient, n);
+  reflect_symmetric(row.correction, n);
+}
+
+inline void continue_through(CorrectedRow& row, const Vec3& n) {
+  continue_through(row.gradient, n);
   reflect_symmetric(row.correction, n);
 }
 

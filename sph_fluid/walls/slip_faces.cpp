@@ -43,6 +43,22 @@ Vec3 normal_at(const SlipFaces::Round& wall, const Beside& place) {
   return normal;
 }
 
+/// The box of a container, without end where its faces radiate: they move, and the others go with them.
+Bounds beyond_radiating(const Wall& wall, Bounds box) {
+  const auto radiates = [&](const std::string& face) {
+    const auto found = wall.faces.find(face);
+    return found != wall.faces.end() && found->second == FaceCondition::radiating;
+  };
+  const auto* cylinder = std::get_if<Cylinder>(&wall.container);
+  for (int a = 0; a < 3; ++a) {
+    const std::string axis(1, "xyz"[a]), low = cylinder ? "low" : axis + "_low", high = cylinder ? "high" : axis + "_high";
+    const bool side = cylinder && a != cylinder->axis;
+    if (radiates(side ? "side" : low)) box.low[a] = -1e300;
+    if (radiates(side ? "side" : high)) box.high[a] = 1e300;
+  }
+  return box;
+}
+
 /// In how many directions the wall is curved, as a scene of that dimension sees it.
 int curved(const SlipFaces::Round& wall, int dimension) { return dimension - 1 - (wall.axis >= 0 && wall.axis < dimension); }
 
@@ -56,8 +72,8 @@ SlipFaces slip_faces(const Settings& settings) {
       const auto found = wall.faces.find(face);
       return found == wall.faces.end() || found->second == FaceCondition::free_slip;
     };
-    const Bounds window = bounds(wall.container, settings.dimension);
-    const auto is_cut = [&](int axis) { return settings.symmetry.axis[axis] && window.low[axis] <= 0.0; };
+    const Bounds box = bounds(wall.container, settings.dimension), window = beyond_radiating(wall, box);
+    const auto is_cut = [&](int axis) { return settings.symmetry.axis[axis] && box.low[axis] <= 0.0; };
     const auto add = [&](int axis, const std::string& low, const std::string& high) {
       // A symmetry plane stands in for what it cuts off.
       const bool cut = is_cut(axis), with_low = slips(low) && !cut, with_high = slips(high);
@@ -74,6 +90,7 @@ SlipFaces slip_faces(const Settings& settings) {
       if (!sides || !slips("side")) return;
       result.round.push_back(side_of(cone, ends));
       SlipFaces::Round& side = result.round.back();
+      if (ends) side.low = window.low[cone.axis], side.high = window.high[cone.axis];
       if (side.sine == 0.0 || result.plane.size() == before) return;
       side.ends = int(before);
       result.plane.back().of_cone = true;

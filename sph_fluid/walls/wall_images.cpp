@@ -34,16 +34,21 @@ PointLoads unloaded(const std::vector<MirrorWall>& walls) {
 }  // namespace
 
 void WallImages::build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
-                       const Particles& particles, std::span<const ParticleRange> ranges) {
+                       const Particles& particles, std::span<const ParticleRange> ranges,
+                       const std::function<void(std::span<const WallFoot>)>& on_feet) {
   see_footprints(settings, walls);
-  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis);
+  SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);
   feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing);
+  if (on_feet) {
+    on_feet(feet_);
+    seen.see_velocities(footprints_);
+  }
   images_.clear();
   begin_.assign(1, 0);
   cells_.resize(ranges.size());
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     const std::uint32_t start = std::uint32_t(images_.size());
-    add_range(ranges[r], particles, seen, faces, settings);
+    add_range(ranges[r], particles, seen, faces, walls, settings);
     sort_from(start, ranges[r].width, cells_[r]);
     begin_.push_back(std::uint32_t(images_.size()));
   }
@@ -53,12 +58,13 @@ void WallImages::see_footprints(const Settings& settings, const std::vector<Mirr
   while (footprints_.size() < walls.size()) {
     const MirrorWall& wall = walls[footprints_.size()];
     const double width = smoothing_length(settings, settings.lattice.spacing);
-    footprints_.push_back(wall.rigid ? Footprint() : Footprint(wall.faces, wall.position, width, settings.symmetry.axis));
+    if (wall.radiates()) footprints_.emplace_back(wall.position.size());
+    else footprints_.push_back(wall.rigid ? Footprint() : Footprint(wall.faces, wall.position, width, settings.symmetry.axis));
   }
 }
 
 void WallImages::add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen,
-                           const SlipFaces& faces, const Settings& settings) {
+                           const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Settings& settings) {
   if ((feet_.empty() && faces.empty()) || range.depth <= 0.0) return;
   std::vector<std::vector<Image>> found(omp_get_max_threads());
 #pragma omp parallel
@@ -66,7 +72,7 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
     std::vector<Image>& mine = found[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
-      add_images_of(i, particles, seen, faces, range.depth, settings, mine);
+      add_images_of(i, particles, seen, faces, walls, range.depth, settings, mine);
   }
   for (const auto& part : found) {
     const int before = int(images_.size());
@@ -78,7 +84,8 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
 }
 
 void WallImages::add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
-                               double depth, const Settings& settings, std::vector<Image>& images) const {
+                               const std::vector<MirrorWall>& walls, double depth, const Settings& settings,
+                               std::vector<Image>& images) const {
   const Vec3 x = place_of(particles, i);
   const std::size_t mark = images.size();
   const auto each = [&](auto visit) {  // the particle and the images that it has so far
@@ -102,13 +109,17 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
     if (foot->at.distance <= 0.0) continue;
     const WallPoint wall = seen.point(*foot);
     const Vec3 place = wall.foot + foot->at.distance * wall.normal;
+    if (walls[foot->wall].radiates())
+      mirror_in_next(*foot, wall, walls, settings, mark, images);
     images.push_back({.owner = i,
                       .parent = -1,
                       .foot = int(foot - feet_.begin()),
                       .stretch = wall.stretch * further(place, x),
                       .place = place,
                       .normal = wall.normal,
-                      .wall_velocity = wall.velocity});
+                      .wall_velocity = wall.velocity,
+                      .radiating = walls[foot->wall].radiates(),
+                      .lead = wall.lead});
   }
   for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
@@ -125,6 +136,27 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
       each([&](const Vec3& at, int parent) {
         images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
       });
+}
+
+void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls,
+                                const Settings& settings, std::size_t mark, std::vector<Image>& images) const {
+  for (std::size_t k = mark, count = images.size(); k < count; ++k) {
+    bool next = true;
+    for (int c = int(k); c >= 0 && next; c = images[c].parent) {
+      const int wall = feet_[images[c].foot].wall;
+      next = wall != foot.wall && walls[wall].radiates() && std::abs(images[c].normal.dot(face.normal)) < 0.5;
+    }
+    if (!next) continue;
+    Image image = images[k];
+    image.parent = int(k);
+    image.foot = int(&foot - feet_.data());
+    image.place += 2.0 * foot.at.distance * face.normal;
+    image.stretch = face.stretch * (settings.axisymmetric ? image.place[0] / images[k].place[0] : 1.0);
+    image.normal = face.normal;
+    image.wall_velocity = face.velocity;
+    image.lead = face.lead;
+    images.push_back(image);
+  }
 }
 
 void WallImages::sort_from(std::uint32_t start, double width, CellList& cells) {
@@ -144,9 +176,9 @@ void WallImages::sort_from(std::uint32_t start, double width, CellList& cells) {
   }
 }
 
-double WallImages::put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
-                            Particles& particles, PointLoads& received) const {
-  const double work = put_back_from_mirrors(settings, walls, particles, received);
+WallShare WallImages::put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
+                               Particles& particles, PointLoads& received) const {
+  const WallShare work = put_back_from_mirrors(settings, walls, particles, received);
   if (faces.empty()) return work;
   const double far = 3.0 * settings.lattice.spacing;
 #pragma omp parallel for schedule(static)
@@ -161,13 +193,13 @@ double WallImages::put_back(const Settings& settings, const SlipFaces& faces, co
   return work;
 }
 
-double WallImages::put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
-                                         PointLoads& received) const {
-  if (feet_.empty()) return 0.0;
-  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis);  // walls may have moved since
+WallShare WallImages::put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
+                                            PointLoads& received) const {
+  if (feet_.empty()) return {};
+  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);  // walls may have moved since
   const double far = settings.lattice.spacing;
   PointLoads given = unloaded(walls);
-  double work = 0;
+  WallShare work;
   for (WallFoot foot : feet_) {
     const std::uint32_t i = foot.particle;
     if (foot.at.distance > far) continue;  // farther than a step can take it
@@ -176,7 +208,7 @@ double WallImages::put_back_from_mirrors(const Settings& settings, const std::ve
     const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);
     turn(particles, i, {wall.foot + foot.at.distance * wall.normal, wall.normal, wall.foot}, wall.velocity);
     const Vec3 lost = particles.mass[i] * (before - Vec3(particles.vx[i], particles.vy[i], particles.vz[i]));
-    work += lost.dot(wall.velocity);
+    work.add(walls[foot.wall], lost.dot(wall.velocity));
     add_at(foot, walls, lost, given);
   }
   for (std::size_t w = 0; w < walls.size(); ++w) footprints_[w].spread(given[w], received[w]);
@@ -206,7 +238,10 @@ void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, c
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
     FluidRow row = particles.predicted[images_[c].owner];
-    for_each_mirror(c, [&](const Image& image) { reflect(row, image.normal, image.wall_velocity, image.stretch); });
+    for_each_mirror(c, [&](const Image& image) {
+      reflect(row, image.normal, image.wall_velocity, image.stretch);
+      row.p += 2.0 * image.lead;
+    });
     if (rings) ring_[slot_[c]] = ring_of(c, particles, *rings, row);
     row.p += row.rho * gravity.dot(images_[c].place - place_of(particles, images_[c].owner));
     rows_[slot_[c]] = row;
@@ -246,7 +281,8 @@ void WallImages::reflect_gradients(const Particles& particles, const Vec3& gravi
     };
     const auto through = [&](auto row, auto gradient) {
       add_weight(gradient(row), -1.0);
-      for_each_mirror(c, [&](const Image& image) { reflect(row, image.normal); });
+      for_each_mirror(
+          c, [&](const Image& image) { image.radiating ? continue_through(row, image.normal) : reflect(row, image.normal); });
       add_weight(gradient(row), 1.0);
       return row;
     };
@@ -257,8 +293,8 @@ void WallImages::reflect_gradients(const Particles& particles, const Vec3& gravi
   }
 }
 
-double WallImages::scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force) {
-  std::vector<Vec3> on_wall(images_.size());
+WallShare WallImages::scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force) {
+  std::vector<Left> on_wall(images_.size());
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
     // One thread takes all images of a particle, the images of images first.
@@ -268,18 +304,20 @@ double WallImages::scatter(Particles& particles, const std::vector<MirrorWall>& 
     while (end < images_.size() && images_[end].owner == owner) ++end;
     for (std::uint32_t k = end; k-- > c;) on_wall[k] = scatter_one(k, particles);
   }
-  double power = 0;
+  WallShare power;
   PointLoads given = unloaded(walls);
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    power.radiating += on_wall[c].power;
     if (images_[c].foot < 0) continue;
-    add_at(feet_[images_[c].foot], walls, on_wall[c], given);
-    power += on_wall[c].dot(images_[c].wall_velocity);
+    const WallFoot& foot = feet_[images_[c].foot];
+    add_at(foot, walls, on_wall[c].force, given);
+    power.add(walls[foot.wall], on_wall[c].force.dot(images_[c].wall_velocity));
   }
   for (std::size_t w = 0; w < walls.size(); ++w) footprints_[w].spread(given[w], force[w]);
   return power;
 }
 
-Vec3 WallImages::scatter_one(std::uint32_t k, Particles& particles) {
+WallImages::Left WallImages::scatter_one(std::uint32_t k, Particles& particles) {
   const Image& image = images_[k];
   const SumRow& given = sums_[slot_[k]];
   const Vec3 f(given.fx, given.fy, given.fz), back = image.stretch * reflected(f, image.normal);
@@ -288,9 +326,10 @@ Vec3 WallImages::scatter_one(std::uint32_t k, Particles& particles) {
   // The energy that compression takes up is that at the pressure of whom it shows.
   const double shown = image.parent < 0 ? particles.predicted[image.owner].p : rows_[slot_[image.parent]].p;
   to.compression += image.stretch * given.compression;
-  to.heat += image.stretch * (given.heat + (rows_[slot_[k]].p - shown) * given.compression);
+  to.heat += image.stretch * (given.heat + (rows_[slot_[k]].p - 2.0 * image.lead - shown) * given.compression);
   to.closing = std::max(to.closing, given.closing);
-  return rows_[slot_[k]].volume * 2.0 * f.dot(image.normal) * image.normal;
+  const FluidRow& row = rows_[slot_[k]];
+  return {row.volume * 2.0 * f.dot(image.normal) * image.normal, row.volume * given.compression * 2.0 * image.lead};
 }
 
 void WallImages::describe(PairInput& in) const {

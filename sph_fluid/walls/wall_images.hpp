@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,16 +24,23 @@
 
 namespace undex::sph {
 
+/// Power [W] or work [J] on walls that others move, and on radiating faces.
+struct WallShare {
+  double moving = 0, radiating = 0;
+
+  void add(const MirrorWall& wall, double more) { (wall.radiates() ? radiating : moving) += more; }
+};
+
 class WallImages {
  public:
-  /// Finds the images of ranges of particles.
+  /// Finds the images of ranges of particles. With the feet in hand `on_feet`, where there is one, may set the walls' velocities.
   void build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Particles& particles,
-             std::span<const ParticleRange> ranges);
+             std::span<const ParticleRange> ranges, const std::function<void(std::span<const WallFoot>)>& on_feet = {});
 
   /// A particle beyond a wall changes places with its image; what it loses of its momentum is added to `received` [N s], and
   /// returned is the work on moving walls [J]. Uses the feet of the last build.
-  double put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, Particles& particles,
-                  PointLoads& received) const;
+  WallShare put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, Particles& particles,
+                     PointLoads& received) const;
 
   /// The feet, by which the next step finds who has crossed a wall.
   void visit_state(StateVisitor& state) { state("feet", feet_); }
@@ -45,7 +53,7 @@ class WallImages {
   void reflect_gradients(const Particles& particles, const Vec3& gravity);
   /// Adds what the images have received to the sums of the particles that they show, and the walls' share to `force` [N]. Returns
   /// the power on moving walls [W].
-  double scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force);
+  WallShare scatter(Particles& particles, const std::vector<MirrorWall>& walls, PointLoads& force);
 
   std::size_t size() const { return images_.size(); }
   /// Images of range r: from first to last of the arrays below, sorted by cell.
@@ -62,13 +70,16 @@ class WallImages {
     int foot;                           // index into feet_, -1: a rigid wall
     double stretch;                     // volume over the parent's
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
+    bool radiating = false;
+    double lead = 0;  // half of what its pressure is more than its parent's [Pa]
   };
   void see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls);
   /// Appends the images of particle i to `images`, whose places the parents are.
-  void add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces, double depth,
-                     const Settings& settings, std::vector<Image>& images) const;
+  void add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
+                     const std::vector<MirrorWall>& walls, double depth, const Settings& settings,
+                     std::vector<Image>& images) const;
   void add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
-                 const Settings& settings);
+                 const std::vector<MirrorWall>& walls, const Settings& settings);
   /// What pairs read of an image as a ring; gives the row its area.
   RingRow ring_of(std::uint32_t c, const Particles& particles, const RingKernel& rings, FluidRow& row) const;
   /// Sorts the images from `start` on by cell.
@@ -76,10 +87,17 @@ class WallImages {
   /// Calls visit(image) from the particle's own image on to image c of it.
   template <class Visit>
   void for_each_mirror(std::uint32_t c, Visit visit) const;
-  double put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
-                               PointLoads& received) const;
-  /// What image k has received goes to whom it shows; returned is the wall's share [N].
-  Vec3 scatter_one(std::uint32_t k, Particles& particles);
+  WallShare put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
+                                  PointLoads& received) const;
+  /// Appends the images of the images from `mark` on in the radiating face of this foot: edges of such faces are right angles.
+  void mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls, const Settings& settings,
+                      std::size_t mark, std::vector<Image>& images) const;
+  /// What an image has received goes to whom it shows; the wall has its share.
+  struct Left {
+    Vec3 force;    // [N]
+    double power;  // [W] that the image has taken and its particle cannot, whose pressure is another
+  };
+  Left scatter_one(std::uint32_t k, Particles& particles);
 
   std::vector<Footprint> footprints_;  // per mirror wall
   std::vector<WallFoot> feet_;         // sorted by particle

@@ -41,9 +41,11 @@ double advanced_density(double rho, double rate_times_step) {
   return rho * (1.0 + s) / (1.0 - s);
 }
 
-Evaluation::Evaluation(const Settings& settings, const MovingWalls& walls, const Clock& clock, PassTimers& timers, Clamps& clamps)
+Evaluation::Evaluation(const Settings& settings, const MovingWalls& walls, RadiatingFaces& radiating, const Clock& clock,
+                       PassTimers& timers, Clamps& clamps)
     : settings_(settings),
       walls_(walls),
+      radiating_(radiating),
       clock_(clock),
       timers_(timers),
       clamps_(clamps),
@@ -66,7 +68,7 @@ void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
   equation_of_state(set, ahead);
   set.particles.turn_rates();
   pack_walls(set);
-  find_images(set);
+  find_images(set, ahead);
   pairs(set, ahead.at_rest);
   wall_forces(set);
   finish_rates(set);
@@ -214,11 +216,15 @@ std::vector<ParticleRange> ranges_of(const std::vector<Group>& groups, double su
 
 }  // namespace
 
-void Evaluation::find_images(ParticleSet& set) {
+void Evaluation::find_images(ParticleSet& set, const Ahead& ahead) {
   if (walls_.mirrors.empty() && slip_faces_.empty()) return;
   const auto timer = timers_.measure("walls");
   const std::vector<ParticleRange> ranges = ranges_of(set.groups, loops_.support, slip_faces_, walls_.mirrors);
-  set.images.build(settings_, slip_faces_, walls_.mirrors, set.particles, ranges);
+  // Substeps see the faces as they go from one whole step to the next.
+  std::function<void(std::span<const WallFoot>)> radiate;
+  if (!radiating_.empty() && set.choice != PairChoice::fast && !ahead.at_rest)
+    radiate = [&](std::span<const WallFoot> feet) { radiating_.see(set, feet, ahead.time); };
+  set.images.build(settings_, slip_faces_, walls_.mirrors, set.particles, ranges, radiate);
   set.images.reflect_rows(set.particles, settings_.gravity, rings_ ? &*rings_ : nullptr);
   if (set.images.size() == 0) return;
   for (std::size_t g = 0; g < set.groups.size(); ++g) {
@@ -295,7 +301,7 @@ void Evaluation::wall_forces(ParticleSet& set) {
   const auto timer = timers_.measure("wall forces");
   set.wall_force = walls_.unloaded();
   set.wall_power = set.images.scatter(set.particles, walls_.mirrors, set.wall_force.mirrors);
-  set.wall_power += lining_.scatter(set.wall_force.lined);
+  set.wall_power.moving += lining_.scatter(set.wall_force.lined);
 }
 
 void Evaluation::finish_rates(ParticleSet& set) {

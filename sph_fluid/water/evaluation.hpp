@@ -10,6 +10,7 @@
 #include "sph_fluid/walls/wall_lining.hpp"
 #include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/water/particle_set.hpp"
+#include "sph_fluid/water/radiating_faces.hpp"
 #include "sph_fluid/water/signals.hpp"
 
 namespace undex::sph {
@@ -25,7 +26,8 @@ struct Ahead {
 
 class Evaluation {
  public:
-  Evaluation(const Settings& settings, const MovingWalls& walls, const Clock& clock, PassTimers& timers, Clamps& clamps);
+  Evaluation(const Settings& settings, const MovingWalls& walls, RadiatingFaces& radiating, const Clock& clock,
+             PassTimers& timers, Clamps& clamps);
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
   ~Evaluation();
@@ -50,7 +52,7 @@ class Evaluation {
   void equation_of_state(ParticleSet& set, const Ahead& ahead);
   template <class Law>
   void evaluate_group(ParticleSet& set, const Law& law, Group& group, const Ahead& ahead);
-  void find_images(ParticleSet& set);
+  void find_images(ParticleSet& set, const Ahead& ahead);
   PairInput pair_input(ParticleSet& set);
   void pairs(ParticleSet& set, bool at_rest);
   void count_fillings(const ParticleSet& set);
@@ -61,6 +63,7 @@ class Evaluation {
 
   const Settings& settings_;
   const MovingWalls& walls_;
+  RadiatingFaces& radiating_;
   const Clock& clock_;
   PassTimers& timers_;
   Clamps& clamps_;

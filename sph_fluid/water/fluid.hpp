@@ -32,11 +32,13 @@ struct Ledger {
   double internal = 0;    ///< internal energy; compression energy where the law is barotropic
   double dissipated = 0;  ///< viscous heat of barotropic bodies (where there is an energy field it is in `internal`)
   double wall_work = 0;   ///< work that the fluid has done on moving walls
+  double radiated = 0;    ///< and on radiating faces: what has left through them
   double gravity = 0;     ///< work that gravity has done on the fluid
   /// Work of the surroundings' pressure on it, less what moving walls have of that: - p (change of the fluid's volume).
   double surroundings = 0;
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
+  Vec3 radiated_momentum = Vec3::Zero();  ///< that has left through radiating faces
 };
 
 /// Counts of floors and clamps that acted since the start.

@@ -44,7 +44,7 @@ struct Fluid::Implementation : Water {
   void step(double dt);
   /// A step of several evaluations. Where one goes wrong, all is put back to the step's beginning and has no rates.
   template <class Step>
-  void step_or_stay(Step step);
+  void step_or_stay(double dt, Step step);
   /// A wall has joined: rates are no longer those of the scene.
   void expect_walls();
 

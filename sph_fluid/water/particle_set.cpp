@@ -23,7 +23,8 @@ std::size_t ParticleSet::memory_bytes() const {
 void ParticleSet::visit_loads(StateVisitor& state) {
   state("last step", last_step);
   state.part("wall force", [&] { wall_force.visit_state(state); });
-  state("wall power", wall_power);
+  state("wall power", wall_power.moving);
+  state("radiated power", wall_power.radiating);
 }
 
 void ParticleSet::visit_state(StateVisitor& state) {

@@ -41,7 +41,7 @@ struct ParticleSet {
   BlockOrder blocks;
   std::vector<long long> interactions;  // per block
   WallLoads wall_force;                 // [N]
-  double wall_power = 0;                // work on moving walls [W]
+  WallShare wall_power;                 // work on moving walls [W]
   double reach = 0;                     // largest distance of a pair [m]
   bool healthy = true;                  // all finite, and slower than `fastest`
 

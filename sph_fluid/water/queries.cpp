@@ -137,6 +137,8 @@ Ledger Fluid::Implementation::ledger() const {
   }
   ledger.dissipated = exchange.dissipated;
   ledger.wall_work = exchange.wall_work;
+  ledger.radiated = exchange.radiated;
+  ledger.radiated_momentum = radiating.momentum();
   ledger.gravity = fall() - lifted;
   ledger.surroundings = settings.surroundings.pressure * (filled - volume());
   return ledger;

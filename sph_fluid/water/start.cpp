@@ -29,8 +29,9 @@ void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
   all.particles.make_room(evaluation.loops().second, settings.numerics.alpha, settings.numerics.integrator == Integrator::ssp_rk3,
                           settings.axisymmetric);
   evaluation.signals().expect_everywhere();
+  radiating.begin_anew();
   evaluate(all, {.time = clock.time});
-  if (walls.empty()) evaluation.signals().watch(settings, all);
+  if (walls.lined.empty() && walls.mirrors.size() == radiating.count()) evaluation.signals().watch(settings, all);
 }
 
 void Fluid::Implementation::settle() {

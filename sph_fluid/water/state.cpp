@@ -20,8 +20,10 @@ void Fluid::Implementation::visit_state(StateVisitor& state) {
   state("steps", clock.steps);
   state("dissipated", exchange.dissipated);
   state("wall work", exchange.wall_work);
+  state("radiated", exchange.radiated);
   state.part("clamps", [&] { visit_clamps(clamps, state); });
   state.part("walls", [&] { walls.visit_state(state); });
+  state.part("radiating", [&] { radiating.visit_state(state); });
   std::size_t seen = walls_seen.size();
   state("walls seen", seen);
   walls_seen.resize(seen);

@@ -6,7 +6,8 @@
 
 namespace undex::sph {
 
-Water::Water(const Settings& given) : settings(given), evaluation(settings, walls, clock, timers, clamps) {
+Water::Water(const Settings& given)
+    : settings(given), radiating(settings, walls), evaluation(settings, walls, radiating, clock, timers, clamps) {
   clock.time = settings.start_time;
   exchange.dissipated = settings.heat_before;
 }
@@ -53,7 +54,8 @@ void Water::book(const ParticleSet& set, double duration) {
       exchange.dissipated +=
           duration * blocked_sum<double>(group.begin, group.end, [&](std::uint32_t i) { return p.mass[i] * p.rate[i].heat; });
   walls.receive(set.wall_force, duration);
-  exchange.wall_work += duration * set.wall_power;
+  exchange.wall_work += duration * set.wall_power.moving;
+  exchange.radiated += duration * set.wall_power.radiating;
 }
 
 void Water::drift(ParticleSet& set, double dt) {
@@ -69,7 +71,9 @@ void Water::drift(ParticleSet& set, double dt) {
 void Water::cross_mirrors(ParticleSet& set) {
   cross_symmetry_planes(set.particles);
   WallLoads received = walls.unloaded();
-  exchange.wall_work += set.images.put_back(settings, evaluation.slip_faces(), walls.mirrors, set.particles, received.mirrors);
+  const WallShare work = set.images.put_back(settings, evaluation.slip_faces(), walls.mirrors, set.particles, received.mirrors);
+  exchange.wall_work += work.moving;
+  exchange.radiated += work.radiating;
   walls.receive(received, 1.0);
 }
 

@@ -10,12 +10,13 @@
 #include "sph_fluid/water/evaluation.hpp"
 #include "sph_fluid/water/fluid.hpp"
 #include "sph_fluid/water/particle_set.hpp"
+#include "sph_fluid/water/radiating_faces.hpp"
 
 namespace undex::sph {
 
 /// What the fluid has given away since the start [J].
 struct Exchange {
-  double dissipated = 0, wall_work = 0;
+  double dissipated = 0, wall_work = 0, radiated = 0;
 };
 
 struct Water {
@@ -26,6 +27,7 @@ struct Water {
   Settings settings;
   ParticleSet all;
   MovingWalls walls;
+  RadiatingFaces radiating;
   std::vector<WallMotion> walls_seen;  ///< at the last evaluation; unless all take one leapfrog's step
   Exchange exchange;
   Clock clock;

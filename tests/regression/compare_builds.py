@@ -33,6 +33,7 @@ FURTHER = {
     "free_field/radial.toml": {"resolution.spacing": 1e-4, "end_time": 30e-6},
     "free_field/tnt.toml": {"resolution.spacing": 0.001, "end_time": 200e-6},
     "free_field/case.toml": {"resolution.spacing": 0.003, "end_time": 30e-6},
+    "free_field/radiating.toml": {"resolution.spacing": 0.005, "end_time": 60e-6},
     "free_field/spherical.toml": {"resolution.spacing": 0.003, "end_time": 30e-6},
     "free_field/two_charges.toml": {"resolution.spacing": 0.003, "end_time": 15e-6},
     "gas_water_shock_tube/column.toml": {"resolution.spacing": 0.004},

@@ -26,7 +26,7 @@ struct Column {
   bool mirrored = true, obstacle = false, gravity = false, around = false, pushed = false, held = false, landing = false;
   bool flying = false;
   double half_width = 8, depth = 16;
-  std::string walls = "free_slip";  // "none", "no_slip", "open below"
+  std::string walls = "free_slip";  // "none", "no_slip", "open below", "radiating below"
   std::string water = "\"water-tait\"", plate_material = "\"al-5083-h116\"";
   std::map<std::string, std::string> scheme{{"courant", "0.1"}, {"precision", "\"full\""}};
 
@@ -76,6 +76,7 @@ void Column::describe_fluid(std::ostream& out) const {
   out << "[[walls]]\nname = \"duct\"\nshape = " << box(-depth, 40) << "\ncondition = \""
       << (walls == "no_slip" ? "no_slip" : "free_slip") << "\"\nfaces = {" << end("high") << " = \"open\"";
   if (walls == "open below") out << ", " << end("low") << " = \"open\"";
+  if (walls == "radiating below") out << ", " << end("low") << " = \"radiating\"";
   out << "}\n";
 }
 
@@ -198,6 +199,7 @@ const std::vector<Feature>& features() {
       {"walls", "no_walls", [](Column& c) { c.walls = "none"; }},
       {"walls", "no_slip_walls", [](Column& c) { c.walls = "no_slip"; }},
       {"walls", "open_below", [](Column& c) { c.walls = "open below"; }},
+      {"walls", "radiating_below", [](Column& c) { c.walls = "radiating below"; }},
       water("\"water-tait-cutoff\"", "cutoff"),
       water("\"water-tait-isentropic\"", "isentropic_mixture"),
       water("\"water-steinberg\"", "mie_gruneisen"),
