@@ -45,8 +45,8 @@ EnergyHistory::EnergyHistory(const std::filesystem::path& folder, const scene::S
     : gravity_(!scene.fluid.gravity.isZero()),
       surroundings_(scene.fluid.surroundings.pressure > 0),
       obstacles_(!scene.obstacles.empty()),
-      radiating_(std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(),
-                             [](const sph::Wall& wall) { return wall.radiates(); })),
+      radiating_(
+          std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(), [](const sph::Wall& wall) { return wall.radiates(); })),
       path_(folder / "energy.csv"),
       samples_(energy_columns(gravity_, surroundings_, obstacles_, radiating_)) {
   if (!goes_on) history_.emplace(path_, samples_.columns);

@@ -109,8 +109,7 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
     if (foot->at.distance <= 0.0) continue;
     const WallPoint wall = seen.point(*foot);
     const Vec3 place = wall.foot + foot->at.distance * wall.normal;
-    if (walls[foot->wall].radiates())
-      mirror_in_next(*foot, wall, walls, settings, mark, images);
+    if (walls[foot->wall].radiates()) mirror_in_next(*foot, wall, walls, settings, mark, images);
     images.push_back({.owner = i,
                       .parent = -1,
                       .foot = int(foot - feet_.begin()),

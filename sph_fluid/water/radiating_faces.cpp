@@ -54,8 +54,7 @@ void RadiatingFaces::begin_anew() {
 }
 
 double RadiatingFaces::Rest::pressure_at(const Vec3& x, const Settings& settings, const Body& body) const {
-  const double absolute =
-      column ? column->pressure((x - *body.level).dot(settings.gravity) / settings.gravity.norm()) : pressure;
+  const double absolute = column ? column->pressure((x - *body.level).dot(settings.gravity) / settings.gravity.norm()) : pressure;
   return absolute - settings.surroundings.pressure;
 }
 
