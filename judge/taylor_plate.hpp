@@ -13,9 +13,9 @@ namespace undex::judge {
 
 /// A free plate struck by a plane wave.
 struct PlateHistories {
-  output::Series pressure;      ///< of the fluid at the plate [Pa]
-  output::Series velocity;      ///< of the plate, along the wave's way [m/s]
-  output::Series displacement;  ///< likewise [m]
+  output::Series pressure;        ///< of the fluid at the plate [Pa]
+  output::Series velocity;        ///< of the plate, along the wave's way [m/s]
+  output::Series displacement{};  ///< likewise [m]
 };
 
 /// With `mass` of the plate per area [kg/m^2] and `peak` [Pa] of the incident wave above the pressure at rest:

@@ -121,7 +121,7 @@ std::vector<std::size_t> repeated(const Things& things) {
 void Validator::names() {
   const auto unique = [&](const char* list, const auto& things, const std::vector<const Node*>& nodes) {
     for (const std::size_t i : repeated(things))
-      complain(*nodes[i], "name", std::string(list) + ": the name '" + things[i].name + "' is used twice; choose another one");
+      complain(*nodes[i], "name", list + (": the name '" + things[i].name) + "' is used twice; choose another one");
   };
   unique("bodies", fluid_.bodies, draft_.body_nodes);
   unique("solids", scene_.solids.bodies, draft_.solid_nodes);

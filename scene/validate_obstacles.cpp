@@ -1,5 +1,6 @@
 // Rigid bodies in the water: what they are given, and where they stand.
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "core/closed_surface.hpp"
 #include "core/mass_properties.hpp"
@@ -49,7 +50,11 @@ bool Validator::has_size_of_water(const Obstacle& one, const Node& node) {
     if (usable_[i]) water.include(bounds(fluid_.bodies[i].shape, dimension_));
   if (water.empty()) return true;
   const Bounds extent = bounds(one.shape, dimension_);
-  const auto longest = [&](const Bounds& box) { return (box.high - box.low).head(dimension_).maxCoeff(); };
+  const auto longest = [&](const Bounds& box) {
+    double most = 0;
+    for (int a = 0; a < dimension_; ++a) most = std::max(most, box.high[a] - box.low[a]);
+    return most;
+  };
   constexpr double most_times = 10;
   if (longest(extent) <= most_times * longest(water)) return true;
   complain(node, "shape",

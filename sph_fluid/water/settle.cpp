@@ -86,6 +86,7 @@ class Settler {
     density_ = materials::density_at(liquid.law, pressure, 0.0);
     Settings& settings = water_.settings;
     settings.gravity.setZero();
+    settings.surroundings = {};
     std::size_t count = 0;
     for (const BodyParticles& body : bodies_) count += body.position.size();
     set_ = ParticleSet{};

@@ -45,10 +45,12 @@ void Fluid::Implementation::settle() {
 void Fluid::Implementation::settle_in_place() {
   const std::vector<Body> given = settings.bodies;
   const Vec3 gravity = settings.gravity;
+  const Surroundings surroundings = settings.surroundings;
   std::vector<BodyParticles> bodies = fill_bodies(settings);
   sph::settle(*this, bodies);
   std::copy(given.begin(), given.end(), settings.bodies.begin());  // groups point to them
   settings.gravity = gravity;
+  settings.surroundings = surroundings;
   begin(std::move(bodies));
 }
 

@@ -20,9 +20,9 @@ FIRST = 50  # before some twenty the program's own constants are made, and main 
 
 SCENES = {
     "finite elements in water": ["al_tube_fem", "resolution.spacing=0.006", "start.kind='plain'", "output.field_times=[1e-6]",
-                                 "structure.cells={through=2,around=24,along=12}", "end_time=2e-6"],
+                                 "structure.cells={through=2,around=24,along=12}", "end_time=8e-6"],
     "particles in water": ["al_tube_sph", "resolution.spacing=0.006", "start.kind='plain'", "output.field_times=[]",
-                           "solids.tube.spacing=0.003175", "end_time=1e-6"],
+                           "solids.tube.spacing=0.003175", "end_time=4e-6"],
     "detonation": ["jwl_water", "resolution.spacing=0.01", "end_time=1e-5"],
     "solids that meet": ["colliding_rings", "end_time=1e-6"],
 }

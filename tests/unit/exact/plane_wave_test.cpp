@@ -214,7 +214,9 @@ TEST(PlateBoundary, ACavityThatClosesHammers) {
     RecordProperty("hammer_" + std::to_string(cells), std::to_string(p / exact - 1));
     EXPECT_NEAR(p / exact, 1.0, 10.0 / cells) << cells;
     const double error = std::abs(p / exact - 1);
-    if (last > 0) EXPECT_LT(error, 0.75 * last) << cells;
+    if (last > 0) {
+      EXPECT_LT(error, 0.75 * last) << cells;
+    }
     last = error;
   }
 }
