@@ -133,7 +133,9 @@ TEST(Radiating, MeshesCoverTheFaces) {
       for (const std::string& face : faces) wall.faces[face] = FaceCondition::radiating;
       settings.walls = {wall};
       const RadiatingMeshes meshes = radiating_meshes(settings);
-      if (faces.size() > 1) EXPECT_FALSE(meshes.shared.empty());
+      if (faces.size() > 1) {
+        EXPECT_FALSE(meshes.shared.empty());
+      }
       double all = 0;
       for (const RadiatingMesh& mesh : meshes.faces) all += area(mesh);
       return all;
