@@ -118,6 +118,7 @@ class Settler {
     }
     p.make_room(water_.evaluation.loops().second, settings.numerics.alpha, false);
     water_.evaluation.signals().expect_everywhere();
+    water_.radiating.begin_anew();
   }
 
   bool are_under_one_pressure() const {

@@ -41,6 +41,18 @@ Settings strip(double peak, int length, FaceCondition end, SchemeName scheme) {
   return settings;
 }
 
+/// Particles settle before a face at rest, whatever wave stands at it, and the run begins with the face at its first places.
+TEST(Radiating, FacesRestWhileParticlesSettle) {
+  const Settings settings = strip(1e7, 24, FaceCondition::radiating, SchemeName::riemann);
+  Fluid as_laid(settings), settled(settings);
+  settled.settle();
+  EXPECT_EQ(testing::by_id(settled, "position"), testing::by_id(as_laid, "position"));
+  for (int k = 0; k < 5; ++k)
+    for (Fluid* fluid : {&as_laid, &settled}) fluid->step(1e-7);
+  EXPECT_EQ(testing::by_id(settled, "velocity"), testing::by_id(as_laid, "velocity"));
+  EXPECT_EQ(settled.ledger().radiated, as_laid.ledger().radiated);
+}
+
 /// A plane wave that meets the face at right angles leaves: what comes back is less than 1 % of its peak at any strength.
 TEST(Radiating, PlaneWaveLeaves) {
   for (const double peak : {1e5, 1e7, 1e8}) {
