@@ -39,7 +39,7 @@ BilinearPatch::Frame BilinearPatch::frame(double u, double v) const {
   return f;
 }
 
-bool BilinearPatch::project(const Vec3& place, double size, PatchPoint& at) const {
+bool BilinearPatch::project(const Vec3& place, double size, PatchPoint& at, double beyond) const {
   for (int k = 0; k < 8; ++k) {
     const Frame f = frame(at.u, at.v);
     const Vec3 miss = place - (f.foot - at.distance * f.normal);
@@ -47,7 +47,7 @@ bool BilinearPatch::project(const Vec3& place, double size, PatchPoint& at) cons
     jacobian << f.foot_u - at.distance * f.normal_u, f.foot_v - at.distance * f.normal_v, -f.normal;
     const Vec3 step = jacobian.inverse() * miss;
     at.u += step[0], at.v += step[1], at.distance += step[2];
-    if (!(std::abs(at.u - 0.5) < 3.0 && std::abs(at.v - 0.5) < 3.0)) return false;
+    if (!(std::abs(at.u - 0.5) < beyond && std::abs(at.v - 0.5) < beyond)) return false;
     if (std::abs(step[0]) + std::abs(step[1]) < 1e-10 && std::abs(step[2]) < 1e-10 * size) return true;
   }
   return false;

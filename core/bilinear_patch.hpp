@@ -43,8 +43,8 @@ struct BilinearPatch {
   Frame frame(double u, double v) const;
 
   /// Solves x(u, v, distance) = place [m] from the guess in `at` by Newton's method, to 1e-10 of the face and of `size` [m].
-  /// False where that does not end, or leaves the face by far.
-  bool project(const Vec3& place, double size, PatchPoint& at) const;
+  /// False where that does not end, or comes farther than `beyond` faces from the face's middle.
+  bool project(const Vec3& place, double size, PatchPoint& at, double beyond = 3.0) const;
 };
 
 }  // namespace undex

@@ -44,6 +44,7 @@ sph::LinedWall WetWall::particles(bool free_slip) const {
   sph::LinedWall wall;
   wall.free_slip = free_slip;
   wall.volume = volume_;
+  wall.faces = surface_.faces;
   for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(points_.size(), Vec3::Zero());
   const std::vector<Vec3> rest(surface_.nodes.size(), Vec3::Zero());
   move(surface_.nodes, rest, wall);
@@ -56,6 +57,7 @@ void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocit
 }
 
 void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::LinedWall& wall) const {
+  wall.node.assign(position.begin(), position.end());
   const std::vector<Vec3> normal = node_normals(surface_.faces, position, symmetry_);
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -79,12 +79,6 @@ void Validator::thin_walls() {
     }
   };
 
-  if (solid_ && dimension_ == 3) {
-    std::vector<Vec3> points;
-    for (const std::string& face : solid_->faces({false, false, false}))
-      for (const Vec3& x : solid_->face_points(face)) points.push_back(x);
-    look([&](const Vec3& x) { return -solid_->signed_distance(x); }, points, true, "structure", *draft_.structure_node);
-  }
   const bool images = scene_.coupling.solids == coupling::SolidContact::surface;
   for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
     const Shape& shape = scene_.solids.bodies[i].shape;
@@ -92,12 +86,6 @@ void Validator::thin_walls() {
     for (const std::string& face : shape_faces(shape.base, dimension_, {false, false, false}))
       for (const Vec3& x : face_points(shape.base, face)) points.push_back(x);
     look(inside(shape, dimension_), points, images, "solids." + scene_.solids.bodies[i].name, *draft_.solid_nodes[i]);
-  }
-  for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
-    if (!draft_.obstacle_good[i]) continue;
-    const Shape shape{scene_.obstacles[i].shape, {}};
-    if (const auto surface = closed_surface(shape.base, fluid_.lattice.spacing, dimension_))
-      look(inside(shape, dimension_), surface->nodes, true, "obstacles." + scene_.obstacles[i].name, *draft_.obstacle_nodes[i]);
   }
   if (fluid_.walls.size() < 2 ||
       std::find(draft_.wall_shape_good.begin(), draft_.wall_shape_good.end(), false) != draft_.wall_shape_good.end())

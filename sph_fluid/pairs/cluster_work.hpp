@@ -151,6 +151,8 @@ class ClusterWork {
       h_cluster_ = 0.0;
       for (int l = 0; l < cluster.count; ++l) h_cluster_ = h_of(l) > h_cluster_ ? h_of(l) : h_cluster_;
     }
+    if (in.sight.self != nullptr)
+      for (int l = 0; l < cluster.count; ++l) beside_thin_wall_ = beside_thin_wall_ || in.sight.particles[cluster.begin + l] != 0;
   }
 
   /// Returns the number of true neighbours met, directed.
@@ -221,7 +223,13 @@ class ClusterWork {
       pieces[count++] = {begin, list_.size, image};
       fill(begin, images ? list_.size - begin : own, images, image, reach);
     });
+    // Images reach beyond the wall that they stand behind.
+    looks_ = beside_thin_wall_ || (images && in_.sight.self != nullptr);
+    if (looks_)
+      for (int k = 0; k < count; ++k)
+        look(pieces[k].begin, pieces[k].real, images ? SightOf::images : SightOf::particles, pieces[k].image);
     pairs_with<State, Sums, Pass::symmetric>(kind);
+    looks_ = false;
     if constexpr (Pass::symmetric)
       for (int k = 0; k < count; ++k)
         list_.template scatter_sums<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
@@ -238,13 +246,25 @@ class ClusterWork {
       list_.pad(0);
       list_.fill_places(0, real, origin_, image, T(1e3 * reach));
       list_.template fill_rows<List::state>(0, in_.wall, image);
+      looks_ = beside_thin_wall_;
+      if (looks_) look(0, real, SightOf::dummies, image);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
         list_.template scatter_sums<WallSums<V>>(0, real, out_.wall, image);
       } else {
         pairs_with<Wall, WallSums<V>, false>(kind);
       }
+      looks_ = false;
     });
+  }
+
+  /// How much the cluster's particles see of the candidates first..last, and nothing of what fills up the last block.
+  void look(std::uint32_t first, std::uint32_t last, SightOf what, int image) {
+    Scratch& s = list_.scratch();
+    in_.sight.answer(in_.sight.self, in_,
+                     {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, first, last, image, s.share, s.capacity});
+    for (int l = 0; l < cluster_.count; ++l)
+      for (std::uint32_t c = last; c % W != 0; ++c) s.share[std::size_t(l) * s.capacity + c] = 0.0f;
   }
 
   const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
@@ -290,6 +310,9 @@ class ClusterWork {
     pair.gas = kind.gas;
     pair.alike = kind.alike;
     pair.least_pressure = T(kind.least_pressure);
+    const float* share = looks_ ? list_.scratch().share + std::size_t(l) * list_.scratch().capacity : nullptr;
+    V seen = broadcast(T(1));
+    const T unseen = T(1e6 * h_cluster_ * h_cluster_);  // out of reach
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());
     for (; block != end; block += List::stride) {
@@ -302,7 +325,16 @@ class ClusterWork {
       pair.dy = y - load(block + List::place + W);
       pair.dz = z - load(block + List::place + 2 * W);
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
+      if (share != nullptr) {
+        for (int k = 0; k < W; ++k) seen[k] = T(share[k]);
+        pair.r2 = seen > 0 ? pair.r2 : broadcast(unseen);
+        share += W;
+      }
       smoothing.template evaluate<rings>(pair, block + List::state + 7 * W);
+      if (share != nullptr) {
+        pair.F *= seen;
+        if constexpr (rings) pair.W *= seen;
+      }
       if constexpr (wall || !Pass::symmetric) {
         met += keep(pair.in_reach, broadcast(T(0.5)));
       } else {
@@ -361,6 +393,7 @@ class ClusterWork {
   double h_cluster_;
   V sums_[cluster_size][Sums::count] = {};
   V met_{};  // half the neighbours met
+  bool beside_thin_wall_ = false, looks_ = false;
 };
 
 /// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away

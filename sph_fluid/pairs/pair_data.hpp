@@ -58,6 +58,25 @@ struct ImageInput {
   const RingRow* rings;
 };
 
+/// How much the particles of a cluster see of candidates past thin walls (walls/sight.hpp).
+enum class SightOf : int { particles, images, dummies };
+struct SightQuestion {
+  std::uint32_t begin;  ///< the cluster's particles
+  int count;
+  SightOf what;                ///< candidates are
+  const std::uint32_t* index;  ///< which ones
+  const double *x, *y, *z;     ///< where [m]
+  std::uint32_t first, last;   ///< first <= c < last
+  int mirror;                  ///< bit a: seen across the symmetry plane of axis a
+  float* share;                ///< the answer, 0 to 1: share[l * row + c] for particle l of the cluster and candidate c
+  std::uint32_t row;
+};
+struct SightInput {
+  const void* self = nullptr;                ///< null: no wall is thin
+  const std::uint16_t* particles = nullptr;  ///< zero for one that sees all particles within reach
+  void (*answer)(const void* self, const struct PairInput&, const SightQuestion&) = nullptr;
+};
+
 /// Up to cluster_size consecutive particles of one row of cells.
 struct Cluster {
   std::uint32_t begin;
@@ -78,6 +97,7 @@ struct Scratch {
   std::uint32_t* index = nullptr;                   ///< which particles they are
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
   std::uint32_t capacity = 0;                       ///< of the last four
+  float* share = nullptr;                           ///< cluster_size times as many: see SightQuestion
 };
 /// Makes room, keeping what is there.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
@@ -108,6 +128,7 @@ struct PairInput {
   const GroupView* groups;            ///< of particles first, then of images
   int group_count;
   ImageInput images;
+  SightInput sight;
   const double *wall_x, *wall_y, *wall_z;
   const WallRow* wall;  ///< sorted by cell of wall_grid
   CellGrid wall_grid;

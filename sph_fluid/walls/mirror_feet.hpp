@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "sph_fluid/walls/footprint.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/particles.hpp"
+#include "sph_fluid/walls/sheets.hpp"
 
 namespace undex::sph {
 
@@ -22,7 +24,7 @@ struct ParticleRange {
   double depth;  ///< [m]
 };
 
-/// Where a particle stands over a mirror wall.
+/// Where a particle stands over a mirror wall. Beyond an open edge of a thin wall (sight.hpp) it is over the face drawn out.
 struct WallFoot {
   std::uint32_t particle;
   int wall, face;
@@ -39,8 +41,8 @@ struct WallPoint {
 /// Mirror walls at one moment, with normals at their nodes and the velocities that a particle's footprint shows.
 class SeenMirrors {
  public:
-  SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints, const std::array<bool, 3>& symmetry,
-              double spacing);
+  SeenMirrors(const std::vector<MirrorWall>& walls, const std::vector<Footprint>& footprints, const std::vector<Sheets>& sheets,
+              const std::array<bool, 3>& symmetry, double spacing);
 
   /// The walls' velocities anew.
   void see_velocities(const std::vector<Footprint>& footprints);
@@ -50,6 +52,7 @@ class SeenMirrors {
 
  private:
   const std::vector<MirrorWall>& walls_;
+  const std::vector<Sheets>& sheets_;
   double spacing_;
   PointLoads normal_, velocity_;  // per wall and node
 };
@@ -61,8 +64,10 @@ std::pair<int, double> layer_of(double distance, double spacing, int count);
 double clearance(const std::vector<MirrorWall>& walls, const Bounds& box);
 
 /// All feet of the ranges' particles within their depths, and behind the walls by less than `beyond` [m]; sorted by particle.
+/// Bit e of open(wall, face): beyond edge e the face is drawn out by a range's depth.
 std::vector<WallFoot> find_feet(const std::vector<MirrorWall>& walls, const SeenMirrors& seen, const Particles& particles,
-                                std::span<const ParticleRange> ranges, double beyond);
+                                std::span<const ParticleRange> ranges, double beyond,
+                                const std::function<unsigned(int, int)>& open = {});
 
 /// Adds a load at a foot to the nodes of its face.
 void add_at(const WallFoot& foot, const std::vector<MirrorWall>& walls, const Vec3& load, PointLoads& loads);

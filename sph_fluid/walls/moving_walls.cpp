@@ -109,6 +109,8 @@ void MovingWalls::visit_state(StateVisitor& state) {
   for (std::size_t w = 0; w < motion.size(); ++w)
     state.part("motion " + std::to_string(w), [&] { motion[w].visit_state(state); });
   state.part("impulse", [&] { impulse.visit_state(state); });
+  for (std::size_t w = 0; w < lined.size(); ++w)
+    state.part("surface " + std::to_string(w), [&] { state("node", lined[w].node); });
   if (!state.restores()) return;
   show(motion);
   set_impulses(impulse);

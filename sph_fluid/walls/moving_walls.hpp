@@ -34,6 +34,9 @@ struct LinedWall : WallPoints {
   std::vector<double> volume;     ///< [m^3]
   std::vector<int> faces_before;  ///< how many faces of the wall a particle lies behind; empty: one, for all of them
   bool free_slip = true;
+  /// The surface that they lie behind, as a mirror wall has it: nobody sees them past it (sight.hpp). Empty: nothing is hidden.
+  std::vector<std::array<int, 4>> faces{};
+  std::vector<Vec3> node{};  ///< [m]
 
   /// WallRow::slip of particle k: 1 behind a free-slip face, -1 behind an edge of two, else 0.
   double slip(std::size_t k) const {

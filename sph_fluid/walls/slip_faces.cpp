@@ -149,6 +149,18 @@ bool SlipFaces::Round::shows(const Vec3& x) const {
   return std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return (place - edge.at).dot(edge.side) > 0.0; });
 }
 
+bool SlipFaces::hold(const Vec3& a, const Vec3& b, double tolerance) const {
+  const auto in_plane = [&](int axis, double at) { return std::max(std::abs(a[axis] - at), std::abs(b[axis] - at)) < tolerance; };
+  const auto beyond = [](const Round& wall, const Vec3& x) {
+    const Beside place = beside(wall, x);
+    return std::abs(place.across - place.wall);
+  };
+  return std::any_of(plane.begin(), plane.end(),
+                     [&](const Pair& pair) { return in_plane(pair.axis, pair.low) || in_plane(pair.axis, pair.high); }) ||
+         std::any_of(round.begin(), round.end(),
+                     [&](const Round& wall) { return std::max(beyond(wall, a), beyond(wall, b)) < tolerance; });
+}
+
 std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, double depth, int dimension) {
   if (!wall.is_beside(x, depth)) return {};
   const Beside here = beside(wall, x);

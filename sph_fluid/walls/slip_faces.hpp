@@ -47,6 +47,8 @@ struct SlipFaces {
   std::vector<Pair> plane;
 
   bool empty() const { return round.empty() && plane.empty(); }
+  /// Do both points lie in one of the faces, within `tolerance` [m]?
+  bool hold(const Vec3& a, const Vec3& b, double tolerance) const;
 };
 SlipFaces slip_faces(const Settings& settings);
 

@@ -25,6 +25,16 @@ void turn(Particles& particles, std::size_t i, const Crossing& wall, const Vec3&
   particles.x[i] = wall.place[0], particles.y[i] = wall.place[1], particles.z[i] = wall.place[2];
 }
 
+template <class T>
+std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Sheets sheets_of(const MirrorWall& wall, const Settings& settings, const SlipFaces& faces) {
+  return {wall.faces, wall.position, settings.symmetry.axis, faces, 1e-3 * settings.lattice.spacing};
+}
+
 PointLoads unloaded(const std::vector<MirrorWall>& walls) {
   PointLoads loads;
   for (const MirrorWall& wall : walls) loads.emplace_back(wall.position.size(), Vec3::Zero());
@@ -34,11 +44,14 @@ PointLoads unloaded(const std::vector<MirrorWall>& walls) {
 }  // namespace
 
 void WallImages::build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
-                       const Particles& particles, std::span<const ParticleRange> ranges,
+                       const Particles& particles, std::span<const ParticleRange> ranges, double reach,
                        const std::function<void(std::span<const WallFoot>)>& on_feet) {
-  see_footprints(settings, walls);
-  SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);
-  feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing);
+  see_first_places(settings, faces, walls);
+  SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis, settings.lattice.spacing);
+  look(settings, faces, walls, reach);
+  std::function<unsigned(int, int)> open;
+  if (!sight_.empty()) open = [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); };
+  feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing, open);
   if (on_feet) {
     on_feet(feet_);
     seen.see_velocities(footprints_);
@@ -52,14 +65,90 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
     sort_from(start, ranges[r].width, cells_[r]);
     begin_.push_back(std::uint32_t(images_.size()));
   }
+  if (!sight_.empty()) see_past_walls(settings, faces, walls, particles, ranges, reach);
 }
 
-void WallImages::see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls) {
+void WallImages::see_linings(const std::vector<LinedWall>& walls) {
+  std::size_t count = 0;
+  for (const LinedWall& wall : walls) {
+    if (wall.faces.empty()) continue;
+    if (linings_.size() == count) linings_.emplace_back();
+    linings_[count].faces = wall.faces;
+    linings_[count].position = wall.node;
+    linings_[count++].velocity.assign(wall.node.size(), Vec3::Zero());
+  }
+}
+
+void WallImages::look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, double reach) {
+  if (linings_.empty()) {
+    sight_.look(walls, sheets_, reach, settings.lattice.spacing);
+    return;
+  }
+  while (lining_sheets_.size() < linings_.size()) {
+    const MirrorWall& wall = linings_[lining_sheets_.size()];
+    lining_sheets_.push_back(sheets_of(wall, settings, faces));
+  }
+  sight_.look(joined(walls, linings_), joined(sheets_, lining_sheets_), reach, settings.lattice.spacing);
+}
+
+void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
+                                const Particles& particles, std::span<const ParticleRange> ranges, double reach) {
+  find_shown(particles);
+  if (linings_.empty()) {
+    sight_.see(walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_);
+    return;
+  }
+  const std::vector<Footprint> alone = [&] {
+    std::vector<Footprint> all;
+    for (const MirrorWall& wall : linings_) all.emplace_back(wall.position.size());
+    return all;
+  }();
+  const SeenMirrors seen(linings_, alone, lining_sheets_, settings.symmetry.axis, settings.lattice.spacing);
+  const int first = int(walls.size());
+  std::vector<ParticleRange> near(ranges.begin(), ranges.end());
+  for (ParticleRange& range : near) range.depth = reach;
+  std::vector<WallFoot> feet =
+      find_feet(linings_, seen, particles, near, 0.5 * settings.lattice.spacing,
+                [&](int wall, int face) { return open_edges(first + wall, face, lining_sheets_[wall]); });
+  for (WallFoot& foot : feet) foot.wall += first;
+  feet.insert(feet.end(), feet_.begin(), feet_.end());
+  sight_.see(joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_);
+}
+
+unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const {
+  return sight_.is_thin(wall, face) ? sheets.open(face) : 0u;
+}
+
+void WallImages::find_shown(const Particles& particles) {
+  shown_.resize(images_.size());
+  for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    SeenImage seen{.owner = images_[c].owner};
+    Vec3 before = place_of(particles, seen.owner);  // where the last mirror's object stands
+    for_each_mirror(c, [&](const Image& image) {
+      const Vec3 way = image.place - before;
+      if (image.foot >= 0 && !image.radiating) {
+        seen.wall = feet_[image.foot].wall, seen.face = feet_[image.foot].face;
+        seen.shown = before;
+        seen.normal = image.normal;
+      } else if (image.normal.isZero()) {
+        seen.shown += way;
+      } else {
+        seen.shown = reflected(seen.shown, image.normal) + (image.place + before).dot(image.normal) * image.normal;
+        seen.normal = reflected(seen.normal, image.normal);
+      }
+      before = image.place;
+    });
+    shown_[slot_[c]] = seen;
+  }
+}
+
+void WallImages::see_first_places(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls) {
   while (footprints_.size() < walls.size()) {
     const MirrorWall& wall = walls[footprints_.size()];
     const double width = smoothing_length(settings, settings.lattice.spacing);
     if (wall.radiates()) footprints_.emplace_back(wall.position.size());
     else footprints_.push_back(wall.rigid ? Footprint() : Footprint(wall.faces, wall.position, width, settings.symmetry.axis));
+    sheets_.push_back(wall.radiates() ? Sheets() : sheets_of(wall, settings, faces));
   }
 }
 
@@ -195,13 +284,15 @@ WallShare WallImages::put_back(const Settings& settings, const SlipFaces& faces,
 WallShare WallImages::put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
                                             PointLoads& received) const {
   if (feet_.empty()) return {};
-  const SeenMirrors seen(walls, footprints_, settings.symmetry.axis, settings.lattice.spacing);  // walls may have moved since
+  const SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis,
+                         settings.lattice.spacing);  // walls may have moved since
   const double far = settings.lattice.spacing;
   PointLoads given = unloaded(walls);
   WallShare work;
   for (WallFoot foot : feet_) {
     const std::uint32_t i = foot.particle;
-    if (foot.at.distance > far) continue;  // farther than a step can take it
+    if (foot.at.distance > far) continue;                                           // farther than a step can take it
+    if (foot.at.distance <= 0.0 && sight_.is_thin(foot.wall, foot.face)) continue;  // it stands on the other side
     if (!seen.patch(foot.wall, foot.face).project(place_of(particles, i), far, foot.at) || foot.at.distance >= 0.0) continue;
     const WallPoint wall = seen.point(foot);
     const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);
@@ -218,6 +309,8 @@ void WallImages::forget() {
   feet_.clear();
   images_.clear();
   begin_.clear();
+  shown_.clear();
+  sight_.forget();
 }
 
 template <class Visit>

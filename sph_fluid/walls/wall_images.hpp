@@ -20,6 +20,8 @@
 #include "sph_fluid/walls/mirror_feet.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/particles.hpp"
+#include "sph_fluid/walls/sheets.hpp"
+#include "sph_fluid/walls/sight.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::sph {
@@ -33,9 +35,14 @@ struct WallShare {
 
 class WallImages {
  public:
-  /// Finds the images of ranges of particles. With the feet in hand `on_feet`, where there is one, may set the walls' velocities.
+  /// The surfaces of lined walls, which hide as mirrors do. Before build().
+  void see_linings(const std::vector<LinedWall>& walls);
+
+  /// Finds the images of ranges of particles, and who sees whom past thin walls; `reach` [m] of pairs. With the feet in hand
+  /// `on_feet`, where there is one, may set the walls' velocities.
   void build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Particles& particles,
-             std::span<const ParticleRange> ranges, const std::function<void(std::span<const WallFoot>)>& on_feet = {});
+             std::span<const ParticleRange> ranges, double reach,
+             const std::function<void(std::span<const WallFoot>)>& on_feet = {});
 
   /// A particle beyond a wall changes places with its image; what it loses of its momentum is added to `received` [N s], and
   /// returned is the work on moving walls [J]. Uses the feet of the last build.
@@ -61,6 +68,7 @@ class WallImages {
   CellGrid grid(std::size_t r) const { return cells_[r].view(); }
   void describe(PairInput& in) const;
   SumRow* sums() { return sums_.data(); }
+  const Sight& sight() const { return sight_; }
   std::size_t memory_bytes() const;
 
  private:
@@ -73,7 +81,15 @@ class WallImages {
     bool radiating = false;
     double lead = 0;  // half of what its pressure is more than its parent's [Pa]
   };
-  void see_footprints(const Settings& settings, const std::vector<MirrorWall>& walls);
+  void see_first_places(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls);
+  /// Which walls are thin, the lined ones after the mirrors.
+  void look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, double reach);
+  void see_past_walls(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
+                      const Particles& particles, std::span<const ParticleRange> ranges, double reach);
+  /// Bit e: beyond edge e particles have feet, too.
+  unsigned open_edges(int wall, int face, const Sheets& sheets) const;
+  /// The images as questions of sight, in the order of the arrays.
+  void find_shown(const Particles& particles);
   /// Appends the images of particle i to `images`, whose places the parents are.
   void add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
                      const std::vector<MirrorWall>& walls, double depth, const Settings& settings,
@@ -99,10 +115,15 @@ class WallImages {
   };
   Left scatter_one(std::uint32_t k, Particles& particles);
 
-  std::vector<Footprint> footprints_;  // per mirror wall
-  std::vector<WallFoot> feet_;         // sorted by particle
-  std::vector<Image> images_;          // by particle, parents before their images
-  std::vector<std::uint32_t> slot_;    // place of an image in the arrays below
+  std::vector<Footprint> footprints_;  // per mirror wall, as the next
+  std::vector<Sheets> sheets_;
+  std::vector<MirrorWall> linings_;  // surfaces of lined walls
+  std::vector<Sheets> lining_sheets_;
+  Sight sight_;
+  std::vector<SeenImage> shown_;     // sorted by cell
+  std::vector<WallFoot> feet_;       // sorted by particle
+  std::vector<Image> images_;        // by particle, parents before their images
+  std::vector<std::uint32_t> slot_;  // place of an image in the arrays below
   std::vector<std::uint32_t> begin_;
   std::vector<CellList> cells_;
   std::vector<double> x_, y_, z_;  // sorted by cell, as the next

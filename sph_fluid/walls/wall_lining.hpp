@@ -1,4 +1,5 @@
-// Dummy particles of all lined walls, rigid and moving, as pairs read them: packed into rows, sorted by cell.
+// Dummy particles of all lined walls, rigid and moving, as pairs read them: packed into rows, sorted by cell. Where a moving wall
+// ends at a face in which the fluid is mirrored, its particles have copies behind that face, as the fluid has images.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "sph_fluid/pairs/ring_kernel.hpp"
 #include "sph_fluid/settings.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::sph {
 
@@ -17,7 +19,7 @@ class WallLining {
   bool waits(const Settings& settings, const std::vector<LinedWall>& moving) const;
   /// Where no wall moves this is done once, and what they are made from is not kept. In a meridian the rows are those of
   /// rings (schemes/rings.hpp); throws std::invalid_argument where such a wall is not smooth.
-  void pack(const Settings& settings, const std::vector<LinedWall>& moving, const RingKernel* rings);
+  void pack(const Settings& settings, const std::vector<LinedWall>& moving, const SlipFaces& faces, const RingKernel* rings);
   bool packed() const { return packed_; }
 
   void describe(PairInput& in) const;
@@ -36,9 +38,14 @@ class WallLining {
   struct Origin {
     int wall;  // among the moving ones, or -1 - number of a rigid one
     std::uint32_t point;
+    Vec3 place;         // [m]
+    int mirrored = -1;  // a copy: the matrix that reflects its vectors, in mirrors_
   };
+  /// Appends the copies of the origins from `first` on; none farther behind a face than `depth` [m].
+  void mirror(const SlipFaces& faces, double depth, int dimension, std::size_t first, std::vector<Origin>& origins);
   std::vector<LinedWall> rigid_;
   std::vector<Origin> origin_;
+  std::vector<Mat3> mirrors_;
   std::vector<double> place_[3];  // sorted by cell, as the next two
   std::vector<WallRow> rows_;
   std::vector<ForceRow> force_;

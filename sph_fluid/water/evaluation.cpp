@@ -187,7 +187,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
 void Evaluation::pack_walls(const ParticleSet& set) {
   if (!lining_.waits(settings_, walls_.lined) || (lining_.packed() && !set.meets_walls)) return;
   const auto timer = timers_.measure("walls");
-  lining_.pack(settings_, walls_.lined, rings_ ? &*rings_ : nullptr);
+  lining_.pack(settings_, walls_.lined, slip_faces_, rings_ ? &*rings_ : nullptr);
 }
 
 namespace {
@@ -217,14 +217,17 @@ std::vector<ParticleRange> ranges_of(const std::vector<Group>& groups, double su
 }  // namespace
 
 void Evaluation::find_images(ParticleSet& set, const Ahead& ahead) {
-  if (walls_.mirrors.empty() && slip_faces_.empty()) return;
+  const bool lined =
+      std::any_of(walls_.lined.begin(), walls_.lined.end(), [](const LinedWall& wall) { return !wall.faces.empty(); });
+  if (walls_.mirrors.empty() && slip_faces_.empty() && !lined) return;
   const auto timer = timers_.measure("walls");
+  if (lined) set.images.see_linings(walls_.lined);
   const std::vector<ParticleRange> ranges = ranges_of(set.groups, loops_.support, slip_faces_, walls_.mirrors);
   // Substeps see the faces as they go from one whole step to the next.
   std::function<void(std::span<const WallFoot>)> radiate;
   if (!radiating_.empty() && set.choice != PairChoice::fast && !ahead.at_rest)
     radiate = [&](std::span<const WallFoot> feet) { radiating_.see(set, feet, ahead.time); };
-  set.images.build(settings_, slip_faces_, walls_.mirrors, set.particles, ranges, radiate);
+  set.images.build(settings_, slip_faces_, walls_.mirrors, set.particles, ranges, set.reach, radiate);
   set.images.reflect_rows(set.particles, settings_.gravity, rings_ ? &*rings_ : nullptr);
   if (set.images.size() == 0) return;
   for (std::size_t g = 0; g < set.groups.size(); ++g) {
@@ -257,6 +260,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   in.groups = set.views.data();
   in.group_count = int(set.views.size());
   set.images.describe(in);
+  set.images.sight().describe(in);
   if (set.meets_walls) lining_.describe(in);
   for (int a = 0; a < 3; ++a) in.mirror[a] = settings_.symmetry.axis[a];
   for (int a = 0; a < 3; ++a) in.gravity[a] = settings_.gravity[a];

@@ -170,7 +170,8 @@ void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visi
             const std::size_t cell = (std::size_t(iz) * grid.count[1] + iy) * grid.count[0] + ix;
             for (std::uint32_t i = grid.start[cell]; i < grid.start[cell + 1]; ++i) {
               const double r = (place_of(all.particles, i) - at).norm();
-              if (r < radius_over_h * all.particles.predicted[i].h) visit(i, r, group, image);
+              if (r < radius_over_h * all.particles.predicted[i].h && all.images.sight().sees(at, place_of(all.particles, i)))
+                visit(i, r, group, image);
             }
           }
     }

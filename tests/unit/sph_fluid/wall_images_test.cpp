@@ -179,7 +179,7 @@ TEST(WallImages, InAMeshAreThoseInTheCylinder) {
       row = FluidRow{.vx = 3, .vy = 4, .vz = 5, .p = 7, .volume = 2, .rho = 1000, .c = 1500, .h = 0.06};
     const ParticleRange range{.first = 0, .last = std::uint32_t(count), .cells = &cells, .width = 0.1, .depth = 0.12};
     WallImages images;
-    images.build(settings, {}, {tube}, particles, {&range, 1});
+    images.build(settings, {}, {tube}, particles, {&range, 1}, 0.12);
     images.reflect_rows(particles, Vec3::Zero());
     ASSERT_EQ(images.size(), std::size_t(count)) << "one each, on the edges of faces too";
     PairInput in{};

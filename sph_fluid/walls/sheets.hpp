@@ -1,0 +1,47 @@
+// The sheets of a mirror mesh: faces joined by edges across which the surface turns by less than sixty degrees. A sheet ends at
+// its open edges: where the mesh ends, and where the wall turns away from the fluid, as a box does at its edges.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/vector.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
+
+namespace undex::sph {
+
+class Sheets {
+ public:
+  /// Of a mesh that is one sheet without open edges.
+  Sheets() = default;
+  /// Of faces (core/surface.hpp) with their nodes at `position` [m]. An edge in a symmetry plane or in one of the containers'
+  /// faces, where the mesh goes on as its own image, is not open; `tolerance` [m].
+  Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, const std::array<bool, 3>& symmetry,
+         const SlipFaces& containers, double tolerance);
+
+  int count() const { return count_; }
+  int sheet(int face) const { return sheet_.empty() ? 0 : sheet_[face]; }
+  /// Bit e: edge e of the face, from corner e to the next, is open.
+  unsigned open(int face) const { return open_.empty() ? 0u : open_[face]; }
+  /// Bit e: it is open and the wall goes on behind it.
+  unsigned sharp(int face) const { return sharp_.empty() ? 0u : sharp_[face]; }
+
+  /// Replaces normals at the corners of a face that lie on a sharp open edge: there they are those of the face's own sheet.
+  /// Of nodes on a symmetry plane they lie in it.
+  void part_normals(int face, std::span<const std::array<int, 4>> faces, std::span<const Vec3> position,
+                    std::array<Vec3, 4>& normal) const;
+
+ private:
+  struct Corner {
+    int face, corner;
+    std::vector<int> mates;    // faces of the sheet at the corner's node, itself included
+    std::array<bool, 3> kept;  // axes across which a symmetry plane holds the node
+  };
+  int count_ = 1;
+  std::vector<int> sheet_;
+  std::vector<unsigned> open_, sharp_;
+  std::vector<Corner> corners_;  // on sharp edges, sorted by face
+};
+
+}  // namespace undex::sph

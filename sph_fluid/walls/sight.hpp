@@ -1,0 +1,121 @@
+// Who sees whom past thin walls. A mirror wall that is thinner than two reaches of the kernel, or that turns away from the fluid at
+// an edge, does not part the particles on its sides by distance alone. There a pair counts if light went from one to the other:
+// - two particles, if the straight way between them meets no wall;
+// - a particle and an image, if the way goes through the mirror whose image it is, meets none before it, and the way from there to
+//   the particle shown is free too.
+// In every direction a particle then sees either fluid or a mirror: at an edge real particles end where images begin. Mirrors in
+// which thin walls end show these walls likewise: their faces have copies across symmetry planes and containers' faces.
+//
+// Most of this is decided without following the way. Every particle that has its foot on a thin face knows the sheet (sheets.hpp);
+// where that face is plain, so that no edge and no other wall is within reach, a particle sees those with feet on the same sheet.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vector.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
+#include "sph_fluid/walls/mirror_feet.hpp"
+#include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/walls/sheets.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
+
+namespace undex::sph {
+
+/// An image as a question of sight.
+struct SeenImage {
+  std::uint32_t owner;         ///< the particle shown
+  int wall = -1, face = -1;    ///< the mirror, -1: a container's face, which hides nothing
+  Vec3 shown = Vec3::Zero();   ///< what the mirror shows: its particle, or that one's image in containers' faces [m]
+  Vec3 normal = Vec3::Zero();  ///< the mirror's, away from the fluid
+};
+
+class Sight {
+ public:
+  /// Finds the thin faces where walls have moved since they were sought; `reach` [m] of pairs.
+  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing);
+  bool empty() const { return !thin_; }
+  bool is_thin(int wall, int face) const { return thin_ && kind_[wall][face] != Kind::thick; }
+
+  /// Walls, particles with their feet, and images where they are now; arrays by particle and by image.
+  void see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry, int dimension,
+           std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images);
+
+  /// Hands it to a loop over pairs.
+  void describe(PairInput& in) const;
+
+  /// Is the straight way from a to b [m] free?
+  bool sees(const Vec3& a, const Vec3& b) const;
+
+  void forget();
+  std::size_t memory_bytes() const;
+
+ private:
+  enum class Kind : unsigned char { thick, plain, edge };
+  /// Half a face, or an open edge: `across` and the normal are zero.
+  struct Piece {
+    Vec3 corner, along, across, normal;
+    int sheet;
+    double offset = 0;  // of its plane
+
+    bool is_edge() const { return across.isZero(); }
+  };
+  struct Crossing {
+    double at;  // share of the way
+    bool entering;
+    Vec3 normal;
+    int sheet;
+  };
+  struct Graze {
+    int sheet;
+    double share;  // 1/2 through the edge itself, 0 half a width beside it
+  };
+  /// What a straight way meets.
+  struct Way {
+    std::vector<Crossing> crossings;  // in order
+    std::vector<Graze> grazed;
+
+    bool is_free() const;
+    /// Of the open edges of a sheet, or of all (-1).
+    double graze(int sheet) const;
+    double beside(int but) const;
+    double free_share() const;
+  };
+  /// A particle's or an image's sheet: 0 is none.
+  using Code = std::uint16_t;
+  static constexpr Code many = 0x7fff, edge = 0x8000;
+
+  Code code_of(int wall, int face) const;
+  void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
+                int dimension);
+  void sort_pieces(int dimension);
+  /// Calls visit(piece) once for each that may lie in the box.
+  template <class Visit>
+  void for_each_near(const Bounds& box, Visit visit) const;
+  void follow(const Vec3& a, const Vec3& b, std::span<const Piece> pieces, Way& way) const;
+  /// How much a particle sees of candidate j.
+  template <class Pieces>
+  float share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j, const PairInput& in,
+              Pieces about, Way& way) const;
+  static void weigh(const void* self, const PairInput& in, const SightQuestion& question);
+  void answer(const PairInput& in, const SightQuestion& question) const;
+
+  double reach_ = 0, spacing_ = 0;
+  bool thin_ = false;
+  std::vector<std::vector<Vec3>> looked_at_;  // where the walls' nodes were [m]
+  std::vector<std::vector<Kind>> kind_;       // per wall and face
+  std::vector<int> first_sheet_;              // per wall
+  std::vector<std::vector<int>> sheet_;       // per wall and face, as the next
+  std::vector<std::vector<unsigned>> open_;
+
+  std::vector<Piece> pieces_;
+  Bounds box_;
+  double cell_ = 1;
+  int count_[3] = {1, 1, 1};
+  std::vector<std::uint32_t> start_, member_;
+  std::vector<Code> particle_, image_;
+  std::span<const SeenImage> images_;
+};
+
+}  // namespace undex::sph

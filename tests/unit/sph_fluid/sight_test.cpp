@@ -1,0 +1,170 @@
+// Thin walls with water on both sides: who sees whom, what passes, and that nothing is lost at their edges.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.hpp"
+#include "sph_fluid/walls/sheets.hpp"
+
+namespace undex::sph::testing {
+namespace {
+
+/// A plate x across z from `low` to `high`, `cells` along x and y: below and above wet, its end in x where asked for.
+MirrorWall plate(const Vec3& low, const Vec3& high, int cells, bool end) {
+  MirrorWall wall;
+  const auto node = [&](int i, int j, int k) { return (k * (cells + 1) + j) * (cells + 1) + i; };
+  for (const double z : {low[2], high[2]})
+    for (int j = 0; j <= cells; ++j)
+      for (int i = 0; i <= cells; ++i)
+        wall.position.push_back({low[0] + (high[0] - low[0]) * i / cells, low[1] + (high[1] - low[1]) * j / cells, z});
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      wall.faces.push_back({node(i, j, 0), node(i + 1, j, 0), node(i + 1, j + 1, 0), node(i, j + 1, 0)});
+      wall.faces.push_back({node(i, j, 1), node(i, j + 1, 1), node(i + 1, j + 1, 1), node(i + 1, j, 1)});
+    }
+  for (int k = 0; k < cells && end; ++k) {
+    wall.faces.push_back({node(cells, k, 0), node(cells, k, 1), node(cells, k + 1, 1), node(cells, k + 1, 0)});
+  }
+  wall.velocity.assign(wall.position.size(), Vec3::Zero());
+  wall.impulse = wall.velocity;
+  return wall;
+}
+
+constexpr double dx = 0.05;
+
+/// Water below a plate that spans its duct and above it, under pressures of their own.
+Settings two_waters(double thickness, double below, double above) {
+  Settings settings;
+  settings.lattice.spacing = dx;
+  settings.lattice.fit = "below";
+  settings.numerics.threads = 1;
+  settings.symmetry.axis = {true, false, false};
+  const double wide = 4 * dx, high = 0.5 + thickness;
+  settings.bodies = {body("below", box(Vec3(-wide, 0, -0.5), Vec3(wide, wide, 0)), "water-tait"),
+                     body("above", box(Vec3(-wide, 0, thickness), Vec3(wide, wide, high)), "water-tait")};
+  settings.bodies[0].pressure = below;
+  settings.bodies[1].pressure = above;
+  settings.walls = {box_wall(Vec3(-wide, 0, -0.5), Vec3(wide, wide, high))};
+  return settings;
+}
+
+/// Whatever its thickness: the water above a held plate does not feel what is below.
+TEST(Sight, NothingPassesAHeldPlate) {
+  for (const SchemeName scheme : {SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan})
+    for (const Precision precision : {Precision::full, Precision::mixed})
+      for (const double spacings : {0.2, 1.0, 2.0, 4.0}) {
+        std::vector<double> pressure[2];
+        for (const int loaded : {0, 1}) {
+          Settings settings = two_waters(spacings * dx, loaded ? 1.1e9 : 1e9, 1e7);
+          settings.numerics.scheme = scheme;
+          settings.numerics.precision = precision;
+          Fluid fluid(settings);
+          fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(4 * dx, 4 * dx, spacings * dx), 3, false));
+          for (int k = 0; k < 20; ++k) fluid.step(1e-6);
+          const std::vector<double> id = fluid.field("id"), all = fluid.field("pressure"), place = fluid.field("position");
+          pressure[loaded].assign(id.size(), 0.0);
+          for (std::size_t i = 0; i < id.size(); ++i)
+            if (place[3 * i + 2] > 0.5 * spacings * dx) pressure[loaded][std::size_t(id[i])] = all[i];
+        }
+        for (std::size_t i = 0; i < pressure[0].size(); ++i)
+          ASSERT_NEAR(pressure[1][i], pressure[0][i], precision == Precision::full ? 1e-2 : 1e2)
+              << int(scheme) << " " << spacings;
+      }
+}
+
+/// A plate with an edge in a tank.
+Fluid tank(double spacings, double jitter, Vec3 speed) {
+  Settings settings;
+  settings.lattice.spacing = dx;
+  settings.lattice.jitter = jitter;
+  settings.numerics.threads = 1;
+  const double t = spacings * dx;
+  const Box all{Vec3(-8 * dx, -4 * dx, -6 * dx), Vec3(8 * dx, 4 * dx, 6 * dx + t)};
+  const Box solid{Vec3(-12 * dx, -8 * dx, 0), Vec3(2 * dx, 8 * dx, t)};
+  settings.bodies = {body("water", Shape{all, {solid}}, "water-tait")};
+  settings.bodies[0].pressure = 1e8;
+  settings.walls = {box_wall(all.low, all.high)};
+  settings.lattice.settle = false;
+  Fluid fluid(settings);
+  MirrorWall wall = plate(Vec3(-8 * dx, -4 * dx, 0), Vec3(2 * dx, 4 * dx, t), 4, true);
+  for (Vec3& v : wall.velocity) v = speed;
+  fluid.add_wall(wall);
+  return fluid;
+}
+
+/// In every direction there is water or a mirror, and never both: water on a lattice that fits the plate is in equilibrium at the
+/// plate's edge, to 1e-4 of what it would feel beside nothing.
+TEST(Sight, WaterAtAnEdgeIsAtRest) {
+  for (const double spacings : {1.0, 2.0, 3.0, 6.0}) {
+    Fluid fluid = tank(spacings, 0.0, Vec3::Zero());
+    const double dt = fluid.step_limit().step;
+    fluid.step(dt);
+    double fastest = 0;
+    for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
+    EXPECT_LT(fastest, 1e-4 * 1e8 / (1000.0 * dx) * dt) << spacings;
+  }
+}
+
+/// What a moving plate gives and takes, edges included, is what the water takes and gives.
+TEST(Sight, AMovingPlateReceivesWhatTheFluidLoses) {
+  double error[2];
+  for (const int finer : {0, 1}) {
+    Fluid fluid = tank(1.0, 0.2, Vec3(0, 0, 30));
+    const double dt = (finer ? 0.15 : 0.3) * fluid.step_limit().step;
+    const Ledger start = fluid.ledger();
+    for (int k = 0; k < (finer ? 20 : 10); ++k) {
+      MirrorWall& wall = fluid.wall(MirrorIndex{0});
+      for (std::size_t n = 0; n < wall.position.size(); ++n) wall.position[n] += dt * wall.velocity[n];
+      fluid.step(dt);
+    }
+    const Ledger end = fluid.ledger();
+    EXPECT_NE(end.wall_work, 0.0);
+    error[finer] = std::abs(total(end) - total(start)) / std::abs(end.wall_work - start.wall_work);
+  }
+  RecordProperty("error", std::to_string(error[0]) + " " + std::to_string(error[1]));
+  EXPECT_LT(error[0], 5e-2);
+  EXPECT_LT(error[1], 0.6 * error[0]);
+}
+
+/// Water on both sides of a plate in a shock: no particle goes through it.
+TEST(Sight, NoParticleCrossesAPlate) {
+  for (const double spacings : {0.2, 1.0}) {
+    Fluid fluid(two_waters(spacings * dx, 3e9, 1e7));
+    fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(4 * dx, 4 * dx, spacings * dx), 3, false));
+    const auto above = [&] {
+      std::vector<bool> side;
+      for (const Vec3& x : by_id(fluid, "position")) side.push_back(x[2] > 0.5 * spacings * dx);
+      return side;
+    };
+    const std::vector<bool> before = above();
+    for (int k = 0; k < 100; ++k) fluid.step(fluid.step_limit().step);
+    EXPECT_EQ(above(), before);
+  }
+}
+
+TEST(Sheets, EndAtSharpEdgesAndAtTheMeshsEnd) {
+  const MirrorWall open = plate(Vec3::Zero(), Vec3(1, 1, 0.1), 2, false), closed = plate(Vec3::Zero(), Vec3(1, 1, 0.1), 2, true);
+  const Sheets two(open.faces, open.position, {false, false, false}, {}, 1e-6),
+      three(closed.faces, closed.position, {false, false, false}, {}, 1e-6),
+      held(open.faces, open.position, {true, false, false}, {}, 1e-6);
+  EXPECT_EQ(two.count(), 2);
+  EXPECT_EQ(three.count(), 3);
+  const auto edges = [](const MirrorWall& wall, const Sheets& sheets, bool sharp) {
+    int count = 0;
+    for (int f = 0; f < int(wall.faces.size()); ++f) count += __builtin_popcount(sharp ? sheets.sharp(f) : sheets.open(f));
+    return count;
+  };
+  EXPECT_EQ(edges(open, two, false), 16);
+  EXPECT_EQ(edges(open, two, true), 0);
+  EXPECT_EQ(edges(open, held, false), 12) << "an edge in a symmetry plane is none";
+  EXPECT_EQ(edges(closed, three, true), 8) << "two faces an edge, at the end in x";
+  // At a sharp edge each side has its own normal.
+  std::array<Vec3, 4> normal;
+  normal.fill(Vec3(1, 1, 1).normalized());
+  three.part_normals(2, closed.faces, closed.position, normal);
+  EXPECT_NEAR((normal[1] - Vec3(0, 0, 1)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(normal[0], Vec3(1, 1, 1).normalized());
+}
+
+}  // namespace
+}  // namespace undex::sph::testing
