@@ -25,14 +25,14 @@ SurfaceFoot nearest_foot(const WetSurface& surface, const Vec3& x) {
   return foot;
 }
 
-std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position) {
+std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, bool rings) {
   std::vector<double> area(position.size(), 0.0);
   for (const std::array<int, 4>& face : faces) {
     if (is_segment(face)) {
       const Vec3 &a = position[face[0]], &b = position[face[1]];
-      const double share = std::numbers::pi * (b - a).norm() / 3.0;
-      area[face[0]] += share * (2.0 * a[0] + b[0]);
-      area[face[1]] += share * (a[0] + 2.0 * b[0]);
+      const double length = (b - a).norm(), share = std::numbers::pi * length / 3.0;
+      area[face[0]] += rings ? share * (2.0 * a[0] + b[0]) : 0.5 * length;
+      area[face[1]] += rings ? share * (a[0] + 2.0 * b[0]) : 0.5 * length;
       continue;
     }
     const Vec3 u = position[face[2]] - position[face[0]], v = position[face[3]] - position[face[1]];

@@ -9,19 +9,19 @@
 
 namespace undex {
 
-/// The wet faces of a structure: bilinear quadrilaterals on nodes, or in an axisymmetric scene segments of the meridian, whose
-/// nodes lie at (r, axial, 0): a segment from a to b is the face {a, b, b, a} (see corners_of). Node order of a face is such that
-/// (x1 - x0) x (x3 - x0) of its corners points INTO the structure, away from the fluid.
+/// The wet faces of a structure: bilinear quadrilaterals on nodes, or in two dimensions segments, whose nodes lie at z = 0 (in an
+/// axisymmetric scene at (r, axial, 0)): a segment from a to b is the face {a, b, b, a} (see corners_of). Node order of a face is
+/// such that (x1 - x0) x (x3 - x0) of its corners points INTO the structure, away from the fluid.
 struct WetSurface {
   std::vector<Vec3> nodes;                ///< reference positions [m], one per wet node
   std::vector<std::array<int, 4>> faces;  ///< indices into nodes
 };
 
-/// Is the face a segment of a meridian?
+/// Is the face a segment of a plane or a meridian?
 inline bool is_segment(const std::array<int, 4>& face) { return face[0] == face[3]; }
 
 /// The corners [m] of a face. A segment is drawn out along z, half a metre to either side, so that it is a bilinear face over
-/// whose middle the meridian lies: normals, projections and weights are those of any face.
+/// whose middle the plane lies: normals, projections and weights are those of any face.
 inline std::array<Vec3, 4> corners_of(const std::array<int, 4>& face, std::span<const Vec3> position) {
   std::array<Vec3, 4> corner{position[face[0]], position[face[1]], position[face[2]], position[face[3]]};
   if (is_segment(face))
@@ -47,7 +47,8 @@ inline Vec3 mirrored(Vec3 x, unsigned axes) {
 }
 
 /// Area [m^2] of each node: a quarter of each of its faces; of a segment's ring the integral of the node's shape function.
-std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position);
+/// Without `rings` segments are those of a plane, a metre deep.
+std::vector<double> nodal_areas(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, bool rings = true);
 
 /// Unit normals at the nodes of faces, away from the fluid: means weighted by area. Those of nodes on a symmetry plane (through
 /// the origin, across a marked axis) lie in it.

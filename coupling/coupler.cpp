@@ -3,28 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <utility>
 #include <variant>
 
 #include "coupling/liquid_layers.hpp"
-#include "sph_fluid/lattice.hpp"
-#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::coupling {
-namespace {
-
-/// Where the fluid slips and its scheme mirrors it, the surface itself; else dummy particles behind it.
-WallIndex add_wall(sph::Fluid& fluid, const WetWall& wall, bool free_slip) {
-  if (free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)) return fluid.add_wall(wall.mesh());
-  return fluid.add_wall(wall.particles(free_slip));
-}
-
-}  // namespace
 
 sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure) {
   const WetSurface& surface = structure.wet_surface();
-  const std::vector<double> area = nodal_areas(surface.faces, surface.nodes);
+  const std::vector<double> area = nodal_areas(surface.faces, surface.nodes, fluid.axisymmetric);
   const auto mass = structure.wet_masses();
   const LiquidLayers liquids(fluid);
   sph::StepLimit limit;
@@ -48,11 +35,8 @@ Coupler::Coupler(Flow& flow, DeformableBody& structure, const Settings& settings
       fluid_(flow.fluid()),
       structure_(structure),
       settings_(settings),
-      wall_(structure.wet_surface(), fluid_.settings().lattice.spacing,
-            sph::kernel_support(fluid_.settings().numerics.kernel) *
-                sph::smoothing_length(fluid_.settings(), fluid_.settings().lattice.spacing),
-            fluid_.settings().symmetry.axis),
-      wall_index_(add_wall(fluid_, wall_, settings.free_slip)),
+      wall_(structure.wet_surface(), fluid_.settings()),
+      wall_index_(wall_.add_to(fluid_, settings.free_slip)),
       added_mass_(added_mass_limit(fluid_.settings(), structure)),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
@@ -78,8 +62,7 @@ sph::StepLimit Coupler::step_limit() {
 
 template <class Wall>
 void Coupler::collect_impulse(Wall& wall) {
-  ledger_.impulse_given = std::accumulate(wall.impulse.begin(), wall.impulse.end(), ledger_.impulse_given);
-  for (const Vec3& impulse : wall.impulse) ledger_.impulse_exchanged += impulse.norm();
+  ledger_.book_given(wall.impulse);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
   wall_.collect_impulse(wall, nodal_impulse_);
 }
@@ -106,7 +89,7 @@ Coupler::Window Coupler::advance(double end) {
   {
     const auto timer = timers_.measure("coupling");
     std::visit([&](auto index) { collect_impulse(fluid_.wall(index)); }, wall_index_);
-    ledger_.impulse_received = std::accumulate(nodal_impulse_.begin(), nodal_impulse_.end(), ledger_.impulse_received);
+    ledger_.book_received(nodal_impulse_);
   }
   structure_.advance(fluid_.time(), nodal_impulse_);
   window.structure_steps = structure_.steps() - structure_steps;
@@ -114,9 +97,7 @@ Coupler::Window Coupler::advance(double end) {
 }
 
 void Coupler::visit_state(StateVisitor& state) {
-  state("impulse given", ledger_.impulse_given);
-  state("impulse received", ledger_.impulse_received);
-  state("impulse exchanged", ledger_.impulse_exchanged);
+  ledger_.visit_state(state);
   state("timers", timers_);
 }
 

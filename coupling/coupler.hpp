@@ -11,19 +11,11 @@
 
 #include "core/deformable_body.hpp"
 #include "coupling/flow.hpp"
+#include "coupling/interface_ledger.hpp"
 #include "coupling/settings.hpp"
 #include "coupling/wet_wall.hpp"
 
 namespace undex::coupling {
-
-/// What has crossed the interface since the start.
-struct InterfaceLedger {
-  Vec3 impulse_given = Vec3::Zero();     ///< by the fluid, summed over wall particles [N s]
-  Vec3 impulse_received = Vec3::Zero();  ///< by the structure's nodes [N s]
-  double impulse_exchanged = 0;          ///< sum of the magnitudes over wall particles and windows [N s]
-  double work_given = 0;                 ///< by the fluid on the wall as it saw it move [J]
-  double work_received = 0;              ///< by the structure [J]
-};
 
 /// The longest window [s] in which the water may act on a wall that it has seen move at the window's start: the least over
 /// the wet nodes of share sqrt(m dx/rho)/c, m being the wall's mass per area, rho, c and dx density and sound speed at the
@@ -32,9 +24,6 @@ struct InterfaceLedger {
 /// stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of order one, and `share` is omega times the
 /// window. `criterion` is "added mass", `position` the node's; the step is infinite where there is no liquid.
 sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure);
-
-/// A wall of the fluid, of either kind.
-using WallIndex = std::variant<sph::MirrorIndex, sph::LinedIndex>;
 
 class Coupler {
  public:

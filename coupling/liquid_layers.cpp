@@ -10,7 +10,7 @@ LiquidLayers::LiquidLayers(const sph::Settings& fluid) : dimension_(fluid.dimens
     if (body.variable_h) continue;
     const double rho = sph::start_density(body), energy = sph::start_energy(body);
     const double c = std::visit([&](const auto& law) { return law.evaluate(rho, energy).sound_speed; }, body.material.law);
-    layers_.push_back({&body, rho * c * c / body.spacing.value_or(fluid.lattice.spacing)});
+    layers_.push_back({&body, rho * c * c / body.spacing.value_or(fluid.lattice.spacing), rho * c});
   }
 }
 

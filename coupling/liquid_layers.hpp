@@ -20,6 +20,7 @@ class LiquidLayers {
   struct Layer {
     const sph::Body* body;
     double stiffness;  ///< rho c^2/dx [Pa/m]
+    double impedance;  ///< rho c [Pa s/m]
   };
   bool empty() const { return layers_.empty(); }
   /// Of the liquid nearest to x [m].

@@ -11,17 +11,7 @@
 
 namespace undex::coupling {
 
-/// How water and solids in particles (solid::Solids) meet.
-enum class SolidContact {
-  particles,  ///< one system of particles: a solid particle is a wall particle of the water's pair loop
-  surface,    ///< through the wet faces, as water and finite elements do
-};
-constexpr auto words(SolidContact) {
-  return std::to_array<Word<SolidContact>>({{"particles", SolidContact::particles}, {"surface", SolidContact::surface}});
-}
-
 struct Settings {
-  SolidContact solids = SolidContact::particles;
   /// Slip of the water along the wet faces.
   bool free_slip = true;
   /// Longest coupling window, in structure steps: the structure is advanced once the fluid has covered this share of the
@@ -35,9 +25,6 @@ void describe(Settings& coupling, Visit&& visit) {
   visit(coupling.window, {.name = "window",
                           .range = Range::between(0.01, 100),
                           .meaning = "longest coupling window, in stable steps of the structure"});
-  visit(coupling.solids, {.name = "solids",
-                          .meaning = "water and solids are one system of particles, pair by pair, or meet through "
-                                     "the solids' wet faces (`wet` is needed then)"});
 }
 
 /// How a rigid body in the water moves: not at all; as water, gravity and a force drive it; or as it is told to.

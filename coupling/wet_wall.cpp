@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <stdexcept>
 
 #include "core/bilinear_patch.hpp"
+#include "sph_fluid/lattice.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::coupling {
 
@@ -15,13 +17,14 @@ WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const 
   const std::vector<Vec3> normal = node_normals(surface.faces, surface.nodes, symmetry);
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const std::array<int, 4>& face = surface.faces[f];
+    const std::array<Vec3, 4> flat = corners_of(face, surface.nodes);
     const auto edge = [&](int a, int b) { return (surface.nodes[face[a]] - surface.nodes[face[b]]).norm(); };
     const int along_u = std::max(1, int(std::lround(0.5 * (edge(0, 1) + edge(3, 2)) / spacing)));
     const int along_v = std::max(1, int(std::lround(0.5 * (edge(0, 3) + edge(1, 2)) / spacing)));
     for (std::size_t layer = 0; layer < layers_; ++layer) {
       const double d = (layer + 0.5) * spacing;
       std::array<Vec3, 4> corner;
-      for (int c = 0; c < 4; ++c) corner[c] = surface.nodes[face[c]] + d * normal[face[c]];
+      for (int c = 0; c < 4; ++c) corner[c] = flat[c] + d * normal[face[c]];
       for (int j = 0; j < along_v; ++j)
         for (int i = 0; i < along_u; ++i) {
           const double u = (i + 0.5) / along_u, v = (j + 0.5) / along_v;
@@ -30,6 +33,18 @@ WetWall::WetWall(const WetSurface& surface, double spacing, double depth, const 
         }
     }
   }
+}
+
+WetWall::WetWall(const WetSurface& surface, const sph::Settings& fluid)
+    : WetWall(surface, fluid.lattice.spacing,
+              sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing),
+              fluid.symmetry.axis) {}
+
+WallIndex WetWall::add_to(sph::Fluid& fluid, bool free_slip) const {
+  if (free_slip && sph::mirrors_fluid(fluid.settings().numerics.scheme)) return fluid.add_wall(mesh());
+  if (fluid.settings().axisymmetric)
+    throw std::invalid_argument("coupling.slip: water slips along bodies of revolution; take true");
+  return fluid.add_wall(particles(free_slip));
 }
 
 sph::MirrorWall WetWall::mesh() const {
@@ -70,15 +85,14 @@ void WetWall::move(std::span<const Vec3> position, std::span<const Vec3> velocit
   }
 }
 
-void WetWall::collect_impulse(sph::MirrorWall& wall, std::vector<Vec3>& nodal_impulse) const {
-  for (std::size_t n = 0; n < nodal_impulse.size(); ++n) nodal_impulse[n] += std::exchange(wall.impulse[n], Vec3::Zero());
+void WetWall::hand_on(const sph::MirrorWall&, std::span<const Vec3> on_points, std::vector<Vec3>& on_nodes) const {
+  for (std::size_t n = 0; n < on_nodes.size(); ++n) on_nodes[n] += on_points[n];
 }
 
-void WetWall::collect_impulse(sph::LinedWall& wall, std::vector<Vec3>& nodal_impulse) const {
+void WetWall::hand_on(const sph::LinedWall&, std::span<const Vec3> on_points, std::vector<Vec3>& on_nodes) const {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const Point& point = points_[k];
-    for (int c = 0; c < 4; ++c) nodal_impulse[surface_.faces[point.face][c]] += point.weight[c] * wall.impulse[k];
-    wall.impulse[k].setZero();
+    for (int c = 0; c < 4; ++c) on_nodes[surface_.faces[point.face][c]] += point.weight[c] * on_points[k];
   }
 }
 

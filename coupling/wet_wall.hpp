@@ -7,21 +7,31 @@
 
 #include <array>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/surface.hpp"
-#include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/water/fluid.hpp"
 
 namespace undex::coupling {
 
+/// A wall of the fluid, of either kind.
+using WallIndex = std::variant<sph::MirrorIndex, sph::LinedIndex>;
+
 class WetWall {
  public:
+  /// As deep as the fluid's kernel reaches, at its spacing.
+  WetWall(const WetSurface& surface, const sph::Settings& fluid);
   /// `spacing` [m] between the dummy particles along the surface and between layers; `depth` [m] to be filled behind it.
   /// Nodes on a symmetry plane (through the origin, normal to a marked axis) keep their normals in that plane.
   WetWall(const WetSurface& surface, double spacing, double depth, const std::array<bool, 3>& symmetry);
 
   std::size_t particle_count() const { return points_.size(); }
   std::size_t layer_count() const { return layers_; }
+
+  /// Adds it to the fluid's walls: where the fluid slips and its scheme mirrors it the surface itself, else dummy particles.
+  /// Throws std::invalid_argument in a meridian without slip.
+  WallIndex add_to(sph::Fluid& fluid, bool free_slip) const;
 
   /// The surface itself at its reference position, at rest, for the fluid to be mirrored in.
   sph::MirrorWall mesh() const;
@@ -34,9 +44,15 @@ class WetWall {
   void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::MirrorWall& wall) const;
   void move(std::span<const Vec3> position, std::span<const Vec3> velocity, sph::LinedWall& wall) const;
 
-  /// Adds the wall's impulses [N s] to the nodes by the same weights, and sets the wall's to zero.
-  void collect_impulse(sph::MirrorWall& wall, std::vector<Vec3>& nodal_impulse) const;
-  void collect_impulse(sph::LinedWall& wall, std::vector<Vec3>& nodal_impulse) const;
+  /// Adds what the points of a wall have received to the nodes, by the same weights.
+  void hand_on(const sph::MirrorWall& wall, std::span<const Vec3> on_points, std::vector<Vec3>& on_nodes) const;
+  void hand_on(const sph::LinedWall& wall, std::span<const Vec3> on_points, std::vector<Vec3>& on_nodes) const;
+  /// Adds the wall's impulses [N s] to the nodes, and sets the wall's to zero.
+  template <class Wall>
+  void collect_impulse(Wall& wall, std::vector<Vec3>& nodal_impulse) const {
+    hand_on(wall, wall.impulse, nodal_impulse);
+    wall.impulse.assign(wall.impulse.size(), Vec3::Zero());
+  }
 
  private:
   struct Point {

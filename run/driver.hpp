@@ -59,9 +59,10 @@ class Coupled : public Driver {
 
 class OneSystem : public Driver {
  public:
-  OneSystem(coupling::Flow& flow, solid::Solids& solids, const coupling::Settings& settings)
-      : system_(flow, solids, settings.free_slip) {}
+  OneSystem(coupling::Flow& flow, solid::Solids& solids, const coupling::Settings& settings) : system_(flow, solids, settings) {}
   Step advance(double end) override;
+  std::optional<coupling::InterfaceLedger> interface() const override { return system_.ledger(); }
+  void visit_state(StateVisitor& state) override { system_.visit_state(state); }
 
  private:
   coupling::ParticleSystem system_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "coupling/wall_depth.hpp"
 #include "fem_structure/structure.hpp"
 #include "scene/revolution.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
@@ -135,7 +136,10 @@ void Simulation::build(const scene::Scene& scene) {
   if (!scene.solids.bodies.empty())
     attempt("solids", [&] {
       auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
-      if (fluid_ && scene.coupling.solids == coupling::SolidContact::surface) built->mesh_wet_faces();
+      if (fluid_) {
+        const double on_wall = 1e-6 * scene.fluid.lattice.spacing;
+        built->mesh_wet_faces([&](const Vec3& x) { return coupling::depth_in_walls(x, scene.fluid) <= on_wall; });
+      }
       solids = built.get();
       bodies_.push_back(std::move(built));
     });
@@ -157,8 +161,7 @@ void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* 
       if (body.get() != driven) followers_.push_back(body.get());
   };
   if (!fluid_) return drive(bodies_.front().get(), std::make_unique<BodyAlone>(*bodies_.front()));
-  if (solids && settings.solids == coupling::SolidContact::particles)
-    return drive(solids, std::make_unique<OneSystem>(*flow_, *solids, settings));
+  if (solids) return drive(solids, std::make_unique<OneSystem>(*flow_, *solids, settings));
   for (const auto& body : bodies_)
     if (!body->wet_surface().faces.empty()) return drive(body.get(), std::make_unique<Coupled>(*flow_, *body, settings));
   drive(nullptr, std::make_unique<WaterAlone>(*flow_));

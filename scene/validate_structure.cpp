@@ -103,11 +103,8 @@ void Validator::solids() {
     }
     if (!solid.wet.empty() && !fluid)
       complain(node, "wet", path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
-    if (solid.wet.empty() && fluid && scene_.coupling.solids == coupling::SolidContact::surface)
-      complain(node, "wet",
-               path +
-                   ".wet is empty, but coupling.solids = \"surface\" couples by wet faces; name those that the "
-                   "water touches");
+    if (fluid && solid.description == solid::Description::updated_lagrangian && (solid.material.spall || solid.material.damage))
+      warn(node, "description", path + ": it may tear, but its wet faces do not: the water stays before them");
     const bool drawn = dimension_ == 3 || is_round(solid.shape.base, dimension_) || std::holds_alternative<Box>(solid.shape.base);
     if (fluid && drawn && draft_.spacing_good && all_usable())
       for (const std::string& face : solid.wet) wet_face(path, node, face_points(solid.shape.base, face), face);

@@ -1,4 +1,5 @@
-// Walls with water on both of their sides that are thinner than the water's kernel reaches.
+// Rigid walls between two containers that are thinner than the water's kernel reaches: the water of one meets that of the other
+// past them. (Walls that have a mesh hide what is behind them: sph_fluid/walls/sight.hpp.)
 #include "core/closed_surface.hpp"
 #include "scene/validator.hpp"
 
@@ -29,7 +30,7 @@ std::optional<double> way_through(const Depth& solid, const Vec3& x, const Vec3&
 }  // namespace
 
 /// With the support R of the kernel and images in both faces, a particle before one face meets images of those before the other
-/// up to a thickness of 2 R less a spacing (half a one for either). Solids in particles have no images: there pairs end at R.
+/// up to a thickness of 2 R less a spacing (half a one for either).
 void Validator::thin_walls() {
   if (fluid_.bodies.empty() || !draft_.spacing_good || !all_usable()) return;
   const auto mirrored = [&](Vec3 x) {
@@ -50,9 +51,8 @@ void Validator::thin_walls() {
   double coarsest = fluid_.lattice.spacing;
   for (const sph::Body& body : fluid_.bodies) coarsest = std::max(coarsest, body.spacing.value_or(0));
 
-  const auto look = [&](const Depth& solid, const std::vector<Vec3>& points, bool images, const std::string& who,
-                        const Node& node) {
-    const double reach = support * fluid_.numerics.eta, times = images ? 2 * reach : reach;  // in spacings
+  const auto look = [&](const Depth& solid, const std::vector<Vec3>& points, const std::string& who, const Node& node) {
+    const double reach = support * fluid_.numerics.eta, times = 2 * reach;  // in spacings
     const auto in_solid = [&](const Vec3& x) { return solid(mirrored(x)); };
     const std::size_t stride = 1 + points.size() / most_points;
     for (std::size_t i = 0; i < points.size(); i += stride) {
@@ -79,14 +79,6 @@ void Validator::thin_walls() {
     }
   };
 
-  const bool images = scene_.coupling.solids == coupling::SolidContact::surface;
-  for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
-    const Shape& shape = scene_.solids.bodies[i].shape;
-    std::vector<Vec3> points;
-    for (const std::string& face : shape_faces(shape.base, dimension_, {false, false, false}))
-      for (const Vec3& x : face_points(shape.base, face)) points.push_back(x);
-    look(inside(shape, dimension_), points, images, "solids." + scene_.solids.bodies[i].name, *draft_.solid_nodes[i]);
-  }
   if (fluid_.walls.size() < 2 ||
       std::find(draft_.wall_shape_good.begin(), draft_.wall_shape_good.end(), false) != draft_.wall_shape_good.end())
     return;
@@ -101,7 +93,7 @@ void Validator::thin_walls() {
     for (const auto& [face, condition] : wall.faces)
       if (condition != sph::FaceCondition::open)
         for (const Vec3& x : face_points(wall.container, face)) points.push_back(x);
-    look(between, points, true, "the rigid wall beside walls." + wall.name, *draft_.wall_nodes[w]);
+    look(between, points, "the rigid wall beside walls." + wall.name, *draft_.wall_nodes[w]);
   }
 }
 

@@ -37,8 +37,7 @@ struct Body {
   /// Stress in equilibrium at the start, of discs and cylinders: with R the radius, S (1 - r^2/R^2) radial and
   /// S (1 - 3 r^2/R^2) along the circumference (quenching leaves such a stress) [Pa].
   double residual_stress = 0;
-  /// Faces that water touches ("inner", "outer", "low", "high", "side", "x_low" ...); what lies deeper behind them than the
-  /// water's kernel reaches is not shown to it. Empty: every face.
+  /// Faces that water touches ("inner", "outer", "low", "high", "side", "x_low" ...): it does not see others. Empty: every face.
   std::vector<std::string> wet;
 };
 template <class Visit>
@@ -84,8 +83,8 @@ void describe(Body& solid, Visit&& visit) {
   visit(solid.wet,
         {.name = "wet",
          .values = "list of faces",
-         .meaning = "those that water touches; empty: all of them. What lies deeper behind them than the water's kernel "
-                    "reaches is not shown to it"});
+         .meaning = "those that water touches, in which it is mirrored; empty: all of them, but for those that lie on other "
+                    "solids, walls and symmetry planes"});
 }
 
 /// Kernel (Wendland's) and steps of solid particles.

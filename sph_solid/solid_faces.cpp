@@ -8,7 +8,7 @@ namespace {
 
 struct Named {
   std::string name;
-  Face face;
+  double depth;  // of the point behind the face [m]
 };
 
 std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension) {
@@ -17,8 +17,8 @@ std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension
   std::vector<Named> faces;
   const auto ends = [&](int axis, double low, double high, const char* low_face, const char* high_face) {
     if (axis >= dimension) return;
-    if (low > -1e200) faces.push_back({low_face, {x[axis] - low, -Vec3::Unit(axis)}});
-    if (high < 1e200) faces.push_back({high_face, {high - x[axis], Vec3::Unit(axis)}});
+    if (low > -1e200) faces.push_back({low_face, x[axis] - low});
+    if (high < 1e200) faces.push_back({high_face, high - x[axis]});
   };
   const auto radial = [&](int axis, const Vec3& center) {
     Vec3 r = x - center;
@@ -33,23 +33,21 @@ std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     Vec3 r = x - sphere->center;
     for (int a = dimension; a < 3; ++a) r[a] = 0.0;
-    faces.push_back({"side", {sphere->radius - r.norm(), r.normalized()}});
+    faces.push_back({"side", sphere->radius - r.norm()});
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
     const Vec3 r = radial(cylinder->axis, cylinder->center);
-    faces.push_back({"side", {cylinder->radius - r.norm(), r.normalized()}});
+    faces.push_back({"side", cylinder->radius - r.norm()});
     ends(cylinder->axis, cylinder->low, cylinder->high, "low", "high");
   } else if (const auto* cone = std::get_if<Cone>(&shape)) {
     const Vec3 r = radial(cone->axis, cone->center);
     const double slope = (cone->high_radius - cone->low_radius) / (cone->high - cone->low), cosine = 1.0 / std::hypot(1.0, slope);
-    faces.push_back(
-        {"side",
-         {(cone->radius_at(x[cone->axis]) - r.norm()) * cosine, cosine * (r.normalized() - slope * Vec3::Unit(cone->axis))}});
+    faces.push_back({"side", (cone->radius_at(x[cone->axis]) - r.norm()) * cosine});
     ends(cone->axis, cone->low, cone->high, "low", "high");
   } else {
     const TubeShape& tube = std::get<TubeShape>(shape);
     const Vec3 r = radial(tube.axis, tube.center);
-    faces.push_back({"inner", {r.norm() - tube.inner, -r.normalized()}});
-    faces.push_back({"outer", {tube.outer - r.norm(), r.normalized()}});
+    faces.push_back({"inner", r.norm() - tube.inner});
+    faces.push_back({"outer", tube.outer - r.norm()});
     ends(tube.axis, tube.low, tube.high, "low", "high");
   }
   return faces;
@@ -63,13 +61,11 @@ std::vector<std::string> solid_faces(const Primitive& shape, int dimension) {
   return names;
 }
 
-Face nearest_face(const Body& body, const Vec3& x, int dimension) {
-  Face nearest{1e300, Vec3::Zero()};
-  for (const Named& named : faces_at(body.shape.base, x, dimension)) {
-    const bool wet = body.wet.empty() || std::find(body.wet.begin(), body.wet.end(), named.name) != body.wet.end();
-    if (wet && named.face.depth < nearest.depth) nearest = named.face;
-  }
-  return nearest;
+bool is_wet(const Body& body, const Vec3& x, int dimension) {
+  const std::vector<Named> faces = faces_at(body.shape.base, x, dimension);
+  const auto nearest =
+      std::min_element(faces.begin(), faces.end(), [](const Named& a, const Named& b) { return a.depth < b.depth; });
+  return body.wet.empty() || std::find(body.wet.begin(), body.wet.end(), nearest->name) != body.wet.end();
 }
 
 }  // namespace undex::solid

@@ -1,4 +1,4 @@
-// The faces of a solid's shape, by name: which one a point lies behind, and how deep.
+// The faces of a solid's shape, by name: which one a point lies on.
 #pragma once
 
 #include <string>
@@ -12,13 +12,7 @@ namespace undex::solid {
 /// "high"; sphere "side".
 std::vector<std::string> solid_faces(const Primitive& shape, int dimension);
 
-struct Face {
-  double depth = 0;             ///< of the point behind the face [m]
-  Vec3 outward = Vec3::Zero();  ///< unit normal
-};
-
-/// The nearest of the body's wet faces (of all, where it names none). Faces are taken as endless: a point near an edge lies
-/// behind both.
-Face nearest_face(const Body& body, const Vec3& x, int dimension);
+/// Is the face that x lies nearest to one of the body's wet faces (of all, where it names none)? Faces are taken as endless.
+bool is_wet(const Body& body, const Vec3& x, int dimension);
 
 }  // namespace undex::solid

@@ -34,7 +34,6 @@ SolidPairs::SolidPairs(const Settings& settings, const sph::Settings& around, st
   if (updated_) deformation_.resize(n);
   sums_.resize(n);
   if (updated_ && around.axisymmetric) axis_width_ = width_of_axis(settings.numerics.eta);
-  if (updated_ && !around.bodies.empty()) inverse_deformation_.assign(n, Mat3::Identity());
   scratch_.resize(std::max(omp_get_max_threads(), around.numerics.threads));
 }
 
@@ -262,7 +261,6 @@ void SolidPairs::update_stresses(SolidParticles& p, double dt) {
         // A step that would compress to nothing is not one that a stable step allows; the stop names it.
         const double shrink = std::max(back.determinant(), 1e-3);
         step.append(i, back, Mat3::Identity(), p.rho[i] * shrink);
-        if (!inverse_deformation_.empty()) inverse_deformation_[i] *= back;
       }
       if (dt > 0.0) update_stress(range.body->material, viscosity, step, dt, p);
     }
@@ -334,7 +332,7 @@ void SolidPairs::write_back(SolidParticles& p) const {
 std::size_t SolidPairs::memory_bytes() const {
   std::size_t bytes =
       rows_.size() * (sizeof(std::uint32_t) + 3 * sizeof(double) + sizeof(FluidRow) + sizeof(SolidRow) + sizeof(SumRow)) +
-      inverse_deformation_.size() * sizeof(Mat3) + deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
+      deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
   return bytes;
 }

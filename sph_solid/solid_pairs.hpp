@@ -36,10 +36,7 @@ class SolidPairs {
   /// [m/s^2] predicts velocities for the viscosity.
   void add_forces(SolidParticles& particles, const std::vector<Vec3>& acceleration, double dt);
 
-  /// Inverse deformation gradient of a particle of an updated body, d X_a/d x_b; kept where there is water to see its surface.
-  const Mat3& inverse_deformation(std::uint32_t particle) const { return inverse_deformation_[particle]; }
   std::size_t memory_bytes() const;
-  void visit_state(StateVisitor& state) { state("inverse deformation", inverse_deformation_); }
 
  private:
   void pack(const SolidParticles& particles);
@@ -77,7 +74,6 @@ class SolidPairs {
   std::vector<sph::SolidRow> solid_;
   std::vector<sph::DeformationRow> deformation_;
   std::vector<sph::SumRow> sums_;
-  std::vector<Mat3> inverse_deformation_;  ///< empty where there is no water
   struct Image {
     std::uint32_t row;  ///< of the particle that it shows
     unsigned axes;      ///< mirrored across which, a bit each

@@ -42,7 +42,6 @@ std::span<const Vec3> Solids::accelerations() const { return self_->acceleration
 std::span<const double> Solids::masses() const { return self_->particles.mass; }
 BodySize Solids::size() const { return {.particles = particle_count()}; }
 Mat3 Solids::stress(std::size_t particle) const { return self_->particles.stress(particle); }
-const std::vector<std::uint32_t>& Solids::wet_particles() const { return self_->wet_particles; }
 
 std::vector<std::size_t> Solids::particles_by_body() const {
   std::vector<std::size_t> counts;
@@ -179,35 +178,6 @@ BodySnapshot Solids::snapshot(std::span<const std::string> fields) const {
     snapshot.of_points.push_back({name, components, std::move(values)});
   }
   return snapshot;
-}
-
-sph::LinedWall Solids::wet_wall(bool free_slip) const {
-  const Implementation& s = *self_;
-  if (s.around.axisymmetric && !free_slip)
-    throw std::invalid_argument("coupling.slip: water slips along solids of revolution; take true");
-  const std::size_t n = s.wet_particles.size();
-  sph::LinedWall wall;
-  wall.free_slip = free_slip;
-  for (auto* field : {&wall.position, &wall.velocity, &wall.normal, &wall.impulse}) field->assign(n, Vec3::Zero());
-  wall.volume.resize(n);
-  move_wall(wall, 0.0);
-  return wall;
-}
-
-void Solids::move_wall(sph::LinedWall& wall, double ahead) const {
-  const Implementation& s = *self_;
-  const SolidParticles& p = s.particles;
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < s.wet_particles.size(); ++k) {
-    const std::uint32_t i = s.wet_particles[k];
-    wall.position[k] = p.x[i] + ahead * (p.v[i] + 0.5 * ahead * s.acceleration[i]);
-    wall.velocity[k] = p.v[i] + ahead * s.acceleration[i];
-    wall.volume[k] = p.mass[i] / p.rho[i];
-    const SolidGroup& group = s.group_of(i);
-    // Area vectors go with the inverse transpose.
-    const Mat3 inverse = group.lagrangian ? Mat3(group.lagrangian->deformation(i).inverse()) : s.pairs->inverse_deformation(i);
-    wall.normal[k] = (inverse.transpose() * s.wet_normal[k]).normalized();
-  }
 }
 
 }  // namespace undex::solid

@@ -14,7 +14,6 @@
 #include "sph_fluid/lattice.hpp"
 #include "sph_solid/meridian.hpp"
 #include "sph_solid/solid_lattice.hpp"
-#include "sph_solid/solid_faces.hpp"
 #include "sph_solid/solids_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
 
@@ -52,7 +51,6 @@ Solids::Implementation::Implementation(const Settings& given, const sph::Setting
   if (around.numerics.threads > 0) omp_set_num_threads(around.numerics.threads);
   time = around.start_time;
   fill();
-  find_wet_particles();
   find_touching(0.0);
   find_forces(0.0);
   find_acceleration();
@@ -137,18 +135,6 @@ void Solids::Implementation::start_stress(const SolidGroup& group) {
     particles.rho[i] = rho;
     particles.pressure[i] = materials::evaluate(solid.pressure, solid.rho0, rho, 0.0).pressure;
   }
-}
-
-void Solids::Implementation::find_wet_particles() {
-  if (around.bodies.empty()) return;
-  const double reach = kernel_support(around.numerics.kernel) * smoothing_length(around, around.lattice.spacing);
-  for (const SolidGroup& group : groups)
-    for (std::uint32_t i = group.begin; i < group.end; ++i) {
-      const Face face = nearest_face(*group.body, particles.start[i], around.dimension);
-      if (face.depth > reach) continue;
-      wet_particles.push_back(i);
-      wet_normal.push_back(-face.outward);
-    }
 }
 
 // ---- The step -------------------------------------------------------------------------------------------------------
@@ -262,6 +248,7 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
     throw std::invalid_argument(text.str());
   }
   if (around.numerics.threads > 0) omp_set_num_threads(around.numerics.threads);
+  surface_has_moved = !surface_points.empty();
   spread_impulse(wet_impulse, interval);
   find_acceleration();
   for (;;) {
@@ -271,7 +258,6 @@ void Solids::Implementation::advance(double t_end, std::span<const Vec3> wet_imp
     if (count == 1.0) break;
   }
   time = t_end;
-  show_surface_motion();
 }
 
 /// What a step goes on from, and what others read between two steps.
@@ -287,13 +273,10 @@ void Solids::Implementation::visit_state(StateVisitor& state) {
   state.part("particles", [&] { particles.visit_state(state); });
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (groups[g].lagrangian) state.part("body " + std::to_string(g), [&] { groups[g].lagrangian->visit_state(state); });
-  if (pairs) state.part("pairs", [&] { pairs->visit_state(state); });
   state("acceleration", acceleration);
   state("impulse force", impulse_force);
-  state("surface position", surface_position);
-  state("surface velocity", surface_velocity);
-  state("surface acceleration", surface_acceleration);
   state("timers", timers);
+  surface_has_moved = surface_has_moved || (state.restores() && !surface_points.empty());
 }
 
 // ---- The public face ------------------------------------------------------------------------------------------------
@@ -315,6 +298,7 @@ void Solids::kick(std::span<const Vec3> impulse) {
     s.received_work += impulse[i].dot(s.particles.v[i] + 0.5 * change);
     s.particles.v[i] += change;
   }
+  s.surface_has_moved = !s.surface_points.empty();
 }
 
 }  // namespace undex::solid

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,10 +13,13 @@
 #include <vector>
 
 #include "core/deformable_body.hpp"
-#include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/settings.hpp"
 #include "sph_solid/settings.hpp"
 
 namespace undex::solid {
+
+/// Which places are meant.
+using Places = std::function<bool(const Vec3&)>;
 
 class Solids : public DeformableBody {
  public:
@@ -35,19 +39,24 @@ class Solids : public DeformableBody {
   std::string stable_step_owner() const override;
   /// Equal steps. After a NumericalStop positions and velocities are those of the middle of the failed step.
   void advance(double t_end, std::span<const Vec3> impulse = {}) override;
-  /// Changes the particles' velocities by impulse [N s] over mass, at once.
+  /// Gives the particles impulses [N s] at once.
   void kick(std::span<const Vec3> impulse);
+  /// Gives them to the nodes of wet_surface().
+  void kick_surface(std::span<const Vec3> impulse);
 
-  /// Meshes the bodies' wet faces, a spacing wide, to be coupled by them. A node is a material point: its motion is exact for
-  /// linear fields, and what it receives goes to the particles by the same weights. Its mass is its share, by the weights'
-  /// magnitudes, of the particles that it is made of: the layer within a kernel's reach. Throws std::invalid_argument where a
-  /// face is none that can be meshed (flat or round).
-  void mesh_wet_faces();
+  /// Meshes the bodies' wet faces, a spacing wide, to be coupled by them: without those that symmetry planes, other bodies or
+  /// `dry` places (all corners are) take up. A node is a material point: its motion is exact for linear fields, and what it
+  /// receives goes to the particles by the same weights. Its mass is its share, by the weights' magnitudes, of the particles that
+  /// it is made of: the layer within a kernel's reach. Throws std::invalid_argument naming the body where that cannot be.
+  void mesh_wet_faces(const Places& dry = [](const Vec3&) { return false; });
   const WetSurface& wet_surface() const override;
   std::span<const Vec3> wet_positions() const override;
   std::span<const Vec3> wet_velocities() const override;
   std::span<const Vec3> wet_accelerations() const override;
   std::span<const double> wet_masses() const override;
+  /// Mass [kg] that each node has at once, before waves pass on what it gets: its area over its velocity per impulse and area, at
+  /// the start under a uniform pressure.
+  std::span<const double> wet_skin_masses() const;
 
   /// Linear moving least squares over the particles near the place, exact for linear fields, also a little outside (a surface
   /// lies half a spacing beyond the last particles).
@@ -75,12 +84,6 @@ class Solids : public DeformableBody {
   std::string description() const override;
   std::size_t memory_bytes() const override;
   const PassTimers& timers() const override;
-
-  /// The particles that water may meet: indices, and a moving wall made of them (`ahead` [s] from now at the present
-  /// acceleration).
-  const std::vector<std::uint32_t>& wet_particles() const;
-  sph::LinedWall wet_wall(bool free_slip) const;
-  void move_wall(sph::LinedWall& wall, double ahead) const;
 
   struct Implementation;  ///< for the passes' own files
 

@@ -28,19 +28,18 @@ struct Solids::Implementation {
   std::vector<SolidGroup> groups;
   std::unique_ptr<SolidPairs> pairs;              // null where no body is updated and none can touch another
   std::vector<Vec3> acceleration, impulse_force;  // [m/s^2], [N]
-  std::vector<std::uint32_t> wet_particles;       // that water may meet
-  std::vector<Vec3> wet_normal;                   // at the start, of each of them
   PassTimers timers;
   double time = 0, last_step = 0;
   long steps = 0;
   Vec3 plane_impulse = Vec3::Zero();  // received from the rigid planes [N s]
   double received_work = 0, plane_work = 0, integrator_jumps = 0, integrator_held = 0, first_step = 0;
 
-  // The meshed wet faces, where water meets the bodies by them: nodes as material points, and their motion.
+  // The meshed wet faces: nodes as material points, and their motion, found when it is asked for.
   WetSurface surface;
   std::vector<BodyPoint> surface_points;
   std::vector<Vec3> surface_position, surface_velocity, surface_acceleration;
-  std::vector<double> surface_mass;
+  bool surface_has_moved = false;
+  std::vector<double> surface_mass, skin_mass;
 
   Implementation(const Settings& settings, const sph::Settings& around);
   Implementation(const Implementation&) = delete;
@@ -50,8 +49,8 @@ struct Solids::Implementation {
   void fill();
   void start_motion(const SolidGroup& group);
   void start_stress(const SolidGroup& group);
-  void find_wet_particles();
   void share_mass();  // of the particles, among the nodes of the surface
+  void find_skin_mass();
 
   void advance(double t_end, std::span<const Vec3> wet_impulse);
   void spread_impulse(std::span<const Vec3> wet_impulse, double interval);

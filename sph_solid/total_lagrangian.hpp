@@ -56,7 +56,6 @@ class TotalLagrangian {
   void visit_state(StateVisitor& state);
 
   double hourglass_energy() const;  ///< [J]
-  const Mat3& deformation(std::uint32_t particle) const { return deformation_[particle - begin_]; }
   std::size_t memory_bytes() const;
 
  private:

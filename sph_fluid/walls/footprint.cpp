@@ -8,9 +8,9 @@
 namespace undex::sph {
 
 Footprint::Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
-                     const std::array<bool, 3>& symmetry) {
+                     const std::array<bool, 3>& symmetry, bool rings) {
   const std::size_t count = position.size();
-  const std::vector<double> area = nodal_areas(faces, position);
+  const std::vector<double> area = nodal_areas(faces, position, rings);
   Bounds box;
   for (const Vec3& x : position) box.include(x);
   // Only nodes near each other along the longest axis are compared.

@@ -18,9 +18,9 @@ class Footprint {
  public:
   /// Of a rigid mesh: S is the unit matrix, so that a load keeps its moment and a velocity is that of the foot.
   Footprint() = default;
-  /// Of the faces' nodes at `position` [m]; `width` H [m].
+  /// Of the faces' nodes at `position` [m]; `width` H [m]; `rings`: segments are those of a meridian.
   Footprint(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, double width,
-            const std::array<bool, 3>& symmetry);
+            const std::array<bool, 3>& symmetry, bool rings);
   /// Of nodes that share nothing.
   explicit Footprint(std::size_t nodes);
 

@@ -350,7 +350,8 @@ void Sight::follow(const Vec3& a, const Vec3& b, std::span<const Piece> pieces, 
                       way.crossings.end());
 }
 
-/// A wall that bulges into the way and lets it out again looking the same way hides nothing: its images stand as if it were plane.
+/// A wall that bulges into the way, and looks the same way where the way leaves it, hides nothing: its images stand as if it were
+/// plane.
 bool Sight::Way::is_free() const {
   const Crossing* entered = nullptr;
   for (const Crossing& crossing : crossings) {

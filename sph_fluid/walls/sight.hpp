@@ -1,13 +1,16 @@
-// Who sees whom past thin walls. A mirror wall that is thinner than two reaches of the kernel, or that turns away from the fluid at
-// an edge, does not part the particles on its sides by distance alone. There a pair counts if light went from one to the other:
+// Who sees whom past thin walls. A mirror wall that is thinner than two reaches of the kernel, or that turns away from the fluid
+// at an edge, does not part the particles on its sides by distance alone. There a pair counts if light went from one to the other:
 // - two particles, if the straight way between them meets no wall;
-// - a particle and an image, if the way goes through the mirror whose image it is, meets none before it, and the way from there to
-//   the particle shown is free too.
-// In every direction a particle then sees either fluid or a mirror: at an edge real particles end where images begin. Mirrors in
-// which thin walls end show these walls likewise: their faces have copies across symmetry planes and containers' faces.
+// - a particle and an image, if the way goes through the mirror whose image it is, meets no wall before it, and the way from
+//   there to the particle shown is free too;
+// - a particle and a dummy, if the first wall on the way is the one that the dummy stands behind.
+// In every direction a particle then sees either fluid or a mirror: at an edge real particles end where images begin, and a way
+// through the edge itself counts one half in either. Mirrors in which thin walls end show these walls likewise: their faces have
+// copies across symmetry planes and containers' faces.
 //
-// Most of this is decided without following the way. Every particle that has its foot on a thin face knows the sheet (sheets.hpp);
-// where that face is plain, so that no edge and no other wall is within reach, a particle sees those with feet on the same sheet.
+// Most of this is decided without following the way. Every particle that has its foot on a thin face knows the sheet
+// (sheets.hpp); where that face is plain, so that no edge and no other wall is within reach, a particle sees those with feet on
+// the same sheet.
 #pragma once
 
 #include <cstdint>

@@ -147,7 +147,8 @@ void WallImages::see_first_places(const Settings& settings, const SlipFaces& fac
     const MirrorWall& wall = walls[footprints_.size()];
     const double width = smoothing_length(settings, settings.lattice.spacing);
     if (wall.radiates()) footprints_.emplace_back(wall.position.size());
-    else footprints_.push_back(wall.rigid ? Footprint() : Footprint(wall.faces, wall.position, width, settings.symmetry.axis));
+    else if (wall.rigid) footprints_.emplace_back();
+    else footprints_.emplace_back(wall.faces, wall.position, width, settings.symmetry.axis, settings.axisymmetric);
     sheets_.push_back(wall.radiates() ? Sheets() : sheets_of(wall, settings, faces));
   }
 }

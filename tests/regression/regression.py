@@ -49,9 +49,9 @@ def tube(scene, start, water, end_time=41 * US, spacing=0.004, **more):
                 **{"fields": [25e-6, 40e-6], "interface": INTERFACE_COARSE, **more})
 
 
-def solids(scene, end_time, spacing, extremes, fluid=False, **settings):
+def solids(scene, end_time, spacing, extremes, fluid=False, interface=INTERFACE, **settings):
     return Case(scene, end_time, {"resolution.spacing": spacing, "output.history_interval": 0, "output.field_interval": 0, **settings},
-                fields=[end_time], extremes=extremes, solids=True, fluid=fluid)
+                fields=[end_time], extremes=extremes, solids=True, fluid=fluid, interface=interface)
 
 
 def probes_at(*points):
@@ -105,7 +105,7 @@ CASES = {
     "al_sphere_impact": solids("al_sphere_impact", 2 * US, 0.002, ["ball_rear.velocity_z", "plate_rear.velocity_z"]),
     "colliding_rings": solids("colliding_rings", 1e-3, 0.002, ["left_back.displacement_x", "left_front.velocity_x", "left_top.displacement_y"]),
     "rotating_stressed_disc": solids("rotating_stressed_disc", 0.1e-3, 0.001, ["half.velocity_y", "centre.stress_xx", "near_rim.stress_yy"]),
-    "al_tube_sph": solids("al_tube_sph", 41 * US, 0.004, [], fluid=True, **{
+    "al_tube_sph": solids("al_tube_sph", 41 * US, 0.004, [], fluid=True, interface=INTERFACE_COARSE, **{
         "start.kind": "spherical", "solids.tube.spacing": 0.003175}),
 }
 # The same scene as octant and whole: (settings of both, of the whole only). In double precision, for a whole body's momentum.

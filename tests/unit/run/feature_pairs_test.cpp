@@ -21,7 +21,7 @@ struct Column {
   bool line = false;   // on the one-dimensional mesh
   bool round = false;  // a cylinder in place of the box, in its meridian
   enum class Plate { none, hexahedra, shell, total, updated } plate = Plate::hexahedra;
-  bool slip = true, surface = false;  // of the coupling; solids by their wet faces
+  bool slip = true;  // of the coupling
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
   bool mirrored = true, obstacle = false, gravity = false, around = false, pushed = false, held = false, landing = false;
   bool flying = false;
@@ -115,7 +115,6 @@ std::string Column::text() const {
   if (around) out << "[surroundings]\npressure = 2e6\n";
   out << "[resolution]\nspacing = 0.002\nfit = \"water\"\n";
   if (plate != Plate::none) out << "[coupling]\nslip = " << (slip ? "true" : "false") << '\n';
-  if (surface && plate != Plate::none) out << "solids = \"surface\"\n";
   if (mirrored && dimension > 1) out << "[symmetry]\nplanes = " << sides("") << '\n';
   out << "[scheme]\n";
   for (const auto& [key, value] : scheme) out << key << " = " << value << '\n';
@@ -174,11 +173,6 @@ const std::vector<Feature>& features() {
       plate(Plate::shell, "shell"),
       plate(Plate::total, "total_lagrangian"),
       plate(Plate::updated, "updated_lagrangian"),
-      {"plate", "solids_by_faces",
-       [](Column& c) {
-         c.plate = Plate::total;
-         c.surface = true;
-       }},
       {"slip", "lined_wall", [](Column& c) { c.slip = false; }},
       {"start", "plane_wave", [](Column& c) { c.start = Start::plane_wave; }},
       {"start", "spherical",

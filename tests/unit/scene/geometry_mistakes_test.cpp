@@ -138,8 +138,6 @@ TEST(Geometry, Solids) {
   expect(with(impact, "point = [0, 0, -0.002]", "point = [0, 0, -0.004]"),
          "26:9: probes.middle.point is 0.002 m away from every solid; move it onto one");
   expect(with(bathed_disc, "point = [0.01, 0]", "point = [0.02, 0]"), "22:9: probes.rim.point is 0.01 m away from every wall");
-  expect(with(bathed_disc, "wet = [\"side\"]", "") + "[coupling]\nsolids = \"surface\"\n",
-         "13:1: solids.disc.wet is empty, but coupling.solids = \"surface\" couples by wet faces");
 }
 
 const std::string pool = R"(end_time = 1e-3

@@ -41,6 +41,13 @@ TEST(Plausibility, SoundScenesGiveNoWarning) {
   EXPECT_EQ(warnings(charge), "");
 }
 
+TEST(Plausibility, WetFacesDoNotTear) {
+  const std::string torn = with(bathed_disc, "\"copper-ofhc\"", "\"copper-ofhc-damage\"");
+  EXPECT_EQ(warnings(torn), "");
+  warned(with(torn, "wet = ", "description = \"updated_lagrangian\"\nwet = "),
+         "solids.disc: it may tear, but its wet faces do not");
+}
+
 /// Published sets detonate as published: TNT (Dobratz) at 6930 m/s and 21 GPa, and every charge of the library.
 TEST(Plausibility, SetsHaveTheirOwnChapmanJouguetState) {
   const materials::Jwl set(

@@ -308,7 +308,7 @@ probe = "plate"
                                     coupled_tube,
                                     two_gases,
                                     impact,
-                                    bathed_disc + "[coupling]\nsolids = \"surface\"\n",
+                                    bathed_disc,
                                     profile,
                                     imploding,
                                     charge_in_a_funnel,
@@ -473,7 +473,6 @@ TEST(RoundTrip, SolidsHoldTheValuesGiven) {
   EXPECT_EQ(scene.solids.planes[0].position, 1);
   EXPECT_FALSE(scene.solids.planes[0].body_above);
   EXPECT_EQ(scene.output.solid_fields, (std::vector<std::string>{"mass", "damage"}));
-  EXPECT_EQ(read_text(impact).coupling.solids, coupling::SolidContact::particles);
 }
 
 TEST(RoundTrip, KeepsFlowStressAndFailure) {

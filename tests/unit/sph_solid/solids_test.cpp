@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/surface.hpp"
 #include "materials/library.hpp"
 #include "materials/stress_update.hpp"
 
@@ -351,6 +352,59 @@ TEST(Solids, MistakesNameTheBodyAndTheRemedy) {
   Body square = body(block, Description::total_lagrangian);
   square.residual_stress = 1e8;
   EXPECT_NE(message(scene({square}, 0.005)).find("residual_stress"), std::string::npos);
+}
+
+/// The area of a scene's wet faces [m^2].
+double wet_area(Scene s) {
+  s.around.bodies.clear();
+  Solids solids(s.solids, s.around);
+  solids.mesh_wet_faces();
+  double sum = 0;
+  for (const double node : nodal_areas(solids.wet_surface().faces, solids.wet_surface().nodes, false)) sum += node;
+  return sum;
+}
+
+TEST(WetFaces, AreThoseThatAreNamedOfAnyShape) {
+  const auto named = [](const Primitive& shape, std::vector<std::string> wet, int dimension = 3) {
+    Body b = body(shape, Description::total_lagrangian);
+    b.wet = std::move(wet);
+    return scene({b}, 0.004, dimension);
+  };
+  const double pi = std::numbers::pi, R = 0.03, r = 0.02, L = 0.04;
+  const TubeShape tube{2, Vec3::Zero(), r, R, 0, L};
+  EXPECT_NEAR(wet_area(named(tube, {"inner"})) / (2 * pi * r * L), 1.0, 0.01);
+  EXPECT_NEAR(wet_area(named(tube, {"outer", "low"})) / (2 * pi * R * L + pi * (R * R - r * r)), 1.0, 0.01);
+  EXPECT_NEAR(wet_area(named(Sphere{Vec3::Zero(), R}, {})) / (4 * pi * R * R), 1.0, 0.02);
+  EXPECT_NEAR(wet_area(named(Cylinder{2, Vec3::Zero(), R, 0, L}, {"high"})) / (pi * R * R), 1.0, 0.02);
+  EXPECT_NEAR(wet_area(named(block, {"x_low", "z_high"})), 0.04 * 0.05 + 0.06 * 0.04, 1e-12);
+  // In the plane, a metre deep.
+  EXPECT_NEAR(wet_area(named(block, {}, 2)), 2 * 0.06 + 2 * 0.04, 1e-12);
+  EXPECT_NEAR(wet_area(named(TubeShape{2, Vec3::Zero(), r, R, -1, 1}, {"outer"}, 2)) / (2 * pi * R), 1.0, 0.01);
+  Scene half = named(block, {}, 2);
+  half.around.symmetry.axis[0] = true;
+  EXPECT_NEAR(wet_area(half), 0.06 + 0.04, 1e-12);
+}
+
+TEST(WetFaces, AreNotWhatOtherBodiesAndWallsCover) {
+  Body upper = body(Box{Vec3(-0.03, 0.02, 0), Vec3(0.03, 0.04, 0)}, Description::total_lagrangian);
+  upper.name = "upper";
+  const Scene s = scene({body(block, Description::total_lagrangian), upper}, 0.004, 2);
+  EXPECT_NEAR(wet_area(s), 2 * 0.06 + 2 * 0.06, 1e-12);
+  Solids solids(s.solids, s.around);
+  solids.mesh_wet_faces([](const Vec3& x) { return x[0] > 0.0299; });
+  for (const auto& face : solids.wet_surface().faces)
+    EXPECT_LT(std::min(solids.wet_surface().nodes[face[0]][0], solids.wet_surface().nodes[face[1]][0]), 0.0299);
+}
+
+TEST(WetFaces, WhatCannotBeMeshedIsRefused) {
+  Body drilled = body(block, Description::total_lagrangian);
+  drilled.shape.removed = {Cylinder{2, Vec3::Zero(), 0.01, -1, 1}};
+  EXPECT_THROW(wet_area(scene({drilled}, 0.004)), std::invalid_argument);
+  drilled.wet = {"x_high"};
+  EXPECT_NEAR(wet_area(scene({drilled}, 0.004)), 0.04 * 0.05, 1e-12);
+  Scene skew = scene({body(Box{Vec3(-0.01, -0.02, 0), Vec3(0.03, 0.02, 0)}, Description::total_lagrangian)}, 0.004, 2);
+  skew.around.symmetry.axis[0] = true;
+  EXPECT_THROW(wet_area(skew), std::invalid_argument);
 }
 
 }  // namespace
