@@ -1,6 +1,6 @@
-// Newton's method where only the function F is known: steps in the space of Arnoldi's vectors, as GMRES takes them (Saad, Schultz
-// 1986, SIAM J. Sci. Stat. Comput. 7, 856), the products J v being differences of F (Knoll, Keyes 2004, J. Comput. Phys. 193, 357),
-// and no longer than they are trusted to be (Brown, Saad 1990, SIAM J. Sci. Stat. Comput. 11, 450).
+// Newton's method where only the function F is known: steps in the space of Arnoldi's vectors, as GMRES takes them (Saad,
+// Schultz 1986, SIAM J. Sci. Stat. Comput. 7, 856), the products J v being differences of F (Knoll, Keyes 2004, J. Comput.
+// Phys. 193, 357), and no longer than they are trusted to be (Brown, Saad 1990, SIAM J. Sci. Stat. Comput. 11, 450).
 #pragma once
 
 #include <Eigen/Dense>

@@ -68,7 +68,10 @@ class Neighbours {
 class Settler {
  public:
   Settler(Water& water, std::vector<BodyParticles>& bodies, double goal)
-      : water_(water), set_(water.all), bodies_(bodies), goal_(goal) {}
+      : water_(water), set_(water.all), bodies_(bodies), aim_(goal) {
+    if (water.settings.axisymmetric) aim_finely();
+    else goal_ = std::max(goal, descended_residual), rest_ = std::max(goal, rest_residual);
+  }
 
   Settled run() {
     lay();
@@ -170,10 +173,9 @@ class Settler {
 
   /// Particles that are not at rest and may move.
   std::vector<std::uint32_t> uneasy() const {
-    const double rest = std::max(rest_residual, goal_);
     std::vector<std::uint32_t> all;
     for (std::uint32_t i = 0; i < set_.particles.size(); ++i)
-      if (residual(i) > rest && (stays_.empty() || !stays_[set_.particles.id[i]])) all.push_back(i);
+      if (residual(i) > rest_ && (stays_.empty() || !stays_[set_.particles.id[i]])) all.push_back(i);
     return all;
   }
 
@@ -216,6 +218,11 @@ class Settler {
     water_.evaluation.signals().expect_within(box);
   }
 
+  void aim_finely() {
+    goal_ = aim_;
+    rest_ = std::max(aim_, easy_residual);
+  }
+
   struct Best {
     double residual;
     std::vector<Vec3> places;
@@ -228,6 +235,7 @@ class Settler {
   void settle() {
     Best best{residual(), places()};
     descend(best);
+    if (best.residual > goal_) aim_finely();
     double held = best.residual;
     for (int left = barren; left > 0 && best.residual > goal_ && work_ < most_work; --left) {
       solve(best);
@@ -385,7 +393,8 @@ class Settler {
   Water& water_;
   ParticleSet& set_;
   std::vector<BodyParticles>& bodies_;
-  const double goal_;
+  const double aim_;
+  double goal_ = 0, rest_ = 0;        // of |g| h: where settling ends, and from where on it begins
   double density_ = 0;                // [kg/m^3]
   double work_ = 0;                   // updates of a particle so far
   std::vector<Mover> movers_;         // by id
