@@ -235,7 +235,8 @@ class Settler {
   void settle() {
     Best best{residual(), places()};
     descend(best);
-    if (best.residual > goal_) aim_finely();
+    if (best.residual <= goal_ || !water_.walls.mirrors.empty()) return put(best.places);
+    aim_finely();
     double held = best.residual;
     for (int left = barren; left > 0 && best.residual > goal_ && work_ < most_work; --left) {
       solve(best);

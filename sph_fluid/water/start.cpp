@@ -38,14 +38,17 @@ void Fluid::Implementation::settle() {
   if (settings.lattice.settle && !settings.bodies.empty()) {
     // From one start rings may find no way to the goal, and another start leads elsewhere.
     constexpr double as_laid = 1e300;
-    const std::vector<double> starts =
-        settings.axisymmetric ? std::vector{2e-2, as_laid, settled_residual} : std::vector{as_laid};
+    // Beside moving walls a section settled as a plane is all there is.
+    const bool beside = settings.axisymmetric && !walls.mirrors.empty();
+    std::vector<double> starts{as_laid};
+    if (beside) starts = {settled_residual};
+    else if (settings.axisymmetric) starts = {2e-2, as_laid, settled_residual};
     std::vector<BodyParticles> best;
     double least = 1e300;
     for (const double start : starts) {
       std::vector<BodyParticles> bodies = fill_bodies(settings);
       if (start < as_laid) settle_section(bodies, start);
-      const double left = settle_in_place(bodies);
+      const double left = beside ? 0.0 : settle_in_place(bodies);
       if (left < least) best = std::move(bodies), least = left;
       if (least <= settled_residual) break;
     }
