@@ -23,9 +23,10 @@ struct Fluid::Implementation : Water {
   /// All but the walls as at the start, with particles in these places.
   void begin(std::vector<BodyParticles> bodies);
   void settle();
-  void settle_in_place();
+  /// Returns the largest |g| h left.
+  double settle_in_place(std::vector<BodyParticles>& bodies);
   /// Areas fill the meridian as particles fill a plane: it is settled as one, and the rings' volumes follow, but for their sum.
-  void settle_meridian();
+  void settle_section(std::vector<BodyParticles>& bodies, double goal) const;
   void fill(std::vector<BodyParticles> bodies);
   /// The particles become those that are laid already.
   void take(const LaidParticles& laid, const Group& group);

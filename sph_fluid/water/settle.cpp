@@ -4,14 +4,28 @@
 #include <cmath>
 
 #include "core/descent.hpp"
+#include "core/newton_krylov.hpp"
 
 namespace undex::sph {
 namespace {
 
 constexpr double pressure = 1e6;   // [Pa], any
-constexpr double goal = 5e-4;      // of |g| h
 constexpr int patience = 40;       // steps for the next tenth
 constexpr double farthest = 0.15;  // that a step takes a particle, in spacings
+constexpr int further = 150;       // steps on from where Newton's method ends short of the goal
+constexpr int barren = 3;          // rounds of both for the next tenth
+constexpr double most_work = 1e8;  // updates of a particle, beyond which descents are all there is
+
+double norm(const std::vector<Vec3>& vectors) {
+  double sum = 0;
+  for (const Vec3& one : vectors) sum += one.squaredNorm();
+  return std::sqrt(sum);
+}
+double longest(const std::vector<Vec3>& vectors) {
+  double most = 0;
+  for (const Vec3& one : vectors) most = std::max(most, one.norm());
+  return most;
+}
 
 /// Places of particles, images and dummies by cells.
 class Neighbours {
@@ -53,24 +67,28 @@ class Neighbours {
 
 class Settler {
  public:
-  Settler(Water& water, std::vector<BodyParticles>& bodies) : water_(water), set_(water.all), bodies_(bodies) {}
+  Settler(Water& water, std::vector<BodyParticles>& bodies, double goal)
+      : water_(water), set_(water.all), bodies_(bodies), aim_(goal) {
+    if (water.settings.axisymmetric) aim_finely();
+    else goal_ = std::max(goal, descended_residual), rest_ = std::max(goal, rest_residual);
+  }
 
-  bool run() {
+  Settled run() {
     lay();
     evaluate();
     if (const std::vector<std::uint32_t> all = uneasy(); !all.empty()) find_who_stays(all);
     std::vector<std::uint32_t> more = uneasy();
-    if (more.empty()) return false;
+    if (more.empty()) return {};
     for (double margin = set_.reach; !more.empty() && margin < 100.0 * set_.reach; margin *= 2.0) {
       choose_movers(more, margin);
-      descend();
+      settle();
       water_.evaluation.signals().expect_everywhere();
       evaluate();
       more = uneasy();  // neighbours of those that have moved, too
       std::erase_if(more, [&](std::uint32_t i) { return moves_[set_.particles.id[i]]; });
     }
     take_places();
-    return true;
+    return {.moved = true, .residual = residual()};
   }
 
  private:
@@ -116,7 +134,7 @@ class Settler {
       }
       group.end = at;
     }
-    p.make_room(water_.evaluation.loops().second, settings.numerics.alpha, false);
+    p.make_room(water_.evaluation.loops().second, settings.numerics.alpha, false, settings.axisymmetric);
     water_.evaluation.signals().expect_everywhere();
     water_.radiating.begin_anew();
   }
@@ -133,6 +151,7 @@ class Settler {
   }
 
   void evaluate() {
+    work_ += double(set_.particles.size());
     water_.evaluate(set_, {.at_rest = true});
     const Particles& p = set_.particles;
     index_.resize(p.size());
@@ -156,7 +175,7 @@ class Settler {
   std::vector<std::uint32_t> uneasy() const {
     std::vector<std::uint32_t> all;
     for (std::uint32_t i = 0; i < set_.particles.size(); ++i)
-      if (residual(i) > rest_residual && (stays_.empty() || !stays_[set_.particles.id[i]])) all.push_back(i);
+      if (residual(i) > rest_ && (stays_.empty() || !stays_[set_.particles.id[i]])) all.push_back(i);
     return all;
   }
 
@@ -199,21 +218,93 @@ class Settler {
     water_.evaluation.signals().expect_within(box);
   }
 
+  void aim_finely() {
+    goal_ = aim_;
+    rest_ = std::max(aim_, easy_residual);
+  }
+
+  struct Best {
+    double residual;
+    std::vector<Vec3> places;
+  };
+  void note(Best& best) const {
+    if (const double now = residual(); now < best.residual) best = {now, places()};
+  }
+
   /// To the best of the places along the way.
-  void descend() {
-    Descent descent;
-    double least = residual(), held = least;
-    std::vector<Vec3> best = places();
-    for (int left = patience; left > 0 && least > goal; --left) {
-      move(descent.step(places(), forces()));
-      evaluate();
-      const double now = residual();
-      if (now >= least) continue;
-      least = now;
-      best = places();
-      if (least < 0.9 * held) held = least, left = patience + 1;
+  void settle() {
+    Best best{residual(), places()};
+    descend(best);
+    if (best.residual <= goal_ || !water_.walls.mirrors.empty()) return put(best.places);
+    aim_finely();
+    double held = best.residual;
+    for (int left = barren; left > 0 && best.residual > goal_ && work_ < most_work; --left) {
+      solve(best);
+      Descent descent;
+      for (int k = 0; k < further && best.residual > goal_ && work_ < most_work; ++k) {
+        step(descent);
+        note(best);
+      }
+      if (best.residual < 0.9 * held) held = best.residual, left = barren + 1;
     }
-    put(best);
+    put(best.places);
+  }
+
+  void step(Descent& descent) {
+    move(descent.step(places(), forces()));
+    evaluate();
+  }
+
+  void descend(Best& best) {
+    Descent descent;
+    double held = best.residual;
+    for (int left = patience; left > 0 && best.residual > goal_; --left) {
+      step(descent);
+      note(best);
+      if (best.residual < 0.9 * held) held = best.residual, left = patience + 1;
+    }
+    put(best.places);
+    evaluate();
+  }
+
+  /// Newton's method, until it gets no further: forces of rings are no gradient, and where the descent ends in a long valley a
+  /// particle or two are left that want a step of all.
+  void solve(Best& best) {
+    constexpr int products = 40, steps = 30, tries = 10;
+    constexpr double share = 0.1, difference = 1e-4, trusted = 0.1;  // spacings
+    const double spacing = water_.settings.lattice.spacing;
+    std::vector<Vec3> at = places(), force = forces();
+    const auto moved = [&](const std::vector<Vec3>& by) {
+      std::vector<Vec3> to = at;
+      for (std::size_t m = 0; m < to.size(); ++m) to[m] += by[m];
+      put(to);
+      water_.cross_mirrors(set_);
+      evaluate();
+      return forces();
+    };
+    double radius = trusted * spacing * std::sqrt(double(at.size()));
+    for (int k = 0, slow = 0; k < steps && slow < 3 && best.residual > goal_ && work_ < most_work; ++k) {
+      const KrylovSpace space(force, products, share, difference * spacing, moved);
+      const double before = norm(force);
+      std::vector<Vec3> by, there;
+      int left = tries;
+      for (; left > 0; --left) {
+        by = space.step(radius);
+        const double shorten = std::min(1.0, 2.0 * farthest * spacing / longest(by));
+        for (Vec3& one : by) one *= shorten;
+        there = moved(by);
+        if (norm(there) < before) break;
+        radius = 0.4 * norm(by);
+      }
+      if (left == 0) break;
+      if (left == tries) radius = std::max(radius, 2.0 * norm(by));
+      at = places();
+      force = there;
+      slow = norm(force) > 0.97 * before ? slow + 1 : 0;
+      note(best);
+    }
+    put(at);
+    evaluate();
   }
 
   bool is_laid(int body) const {
@@ -303,7 +394,10 @@ class Settler {
   Water& water_;
   ParticleSet& set_;
   std::vector<BodyParticles>& bodies_;
+  const double aim_;
+  double goal_ = 0, rest_ = 0;        // of |g| h: where settling ends, and from where on it begins
   double density_ = 0;                // [kg/m^3]
+  double work_ = 0;                   // updates of a particle so far
   std::vector<Mover> movers_;         // by id
   std::vector<std::uint32_t> index_;  // in memory, by id
   std::vector<bool> stays_, moves_;   // by id
@@ -311,6 +405,6 @@ class Settler {
 
 }  // namespace
 
-bool settle(Water& water, std::vector<BodyParticles>& bodies) { return Settler(water, bodies).run(); }
+Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal) { return Settler(water, bodies, goal).run(); }
 
 }  // namespace undex::sph

@@ -13,12 +13,20 @@
 
 namespace undex::sph {
 
-/// |g| h that counts as rest: pressures are uneven by about this share of it.
-inline constexpr double rest_residual = 5e-3;
+/// |g| h that counts as rest, and where descent ends: pressures are uneven by about this share of it.
+inline constexpr double rest_residual = 5e-3, descended_residual = 5e-4;
+/// The same about an axis, and where a descent ends short of the above.
+inline constexpr double easy_residual = 5e-4, settled_residual = 2e-4;
 
-/// Moves the particles of `bodies` where |g| h is larger, and those within reach of them. Left alone are particles within reach
-/// of a free surface, of bodies with another spacing and of bodies that a start has laid. `water` has the scene's settings and
-/// all walls; its particles become others, and it is of no use afterwards. Returns false where all are at rest as they are.
-bool settle(Water& water, std::vector<BodyParticles>& bodies);
+struct Settled {
+  bool moved = false;
+  double residual = 0;  ///< the largest |g| h of those that were moved
+};
+
+/// Moves the particles of `bodies` that are not at rest, and those within reach of them, until all are, or as near to that as it
+/// gets; with a larger `goal` until |g| h is below that. Left alone are particles within reach of a free surface, of bodies with
+/// another spacing and of bodies that a start has laid. `water` has the scene's settings and all walls; its particles become
+/// others.
+Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal = settled_residual);
 
 }  // namespace undex::sph

@@ -36,31 +36,45 @@ void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
 
 void Fluid::Implementation::settle() {
   if (settings.lattice.settle && !settings.bodies.empty()) {
-    if (settings.axisymmetric) settle_meridian();
-    else settle_in_place();
+    // From one start rings may find no way to the goal, and another start leads elsewhere.
+    constexpr double as_laid = 1e300;
+    // Beside moving walls a section settled as a plane is all there is.
+    const bool beside = settings.axisymmetric && !walls.mirrors.empty();
+    std::vector<double> starts{as_laid};
+    if (beside) starts = {settled_residual};
+    else if (settings.axisymmetric) starts = {2e-2, as_laid, settled_residual};
+    std::vector<BodyParticles> best;
+    double least = 1e300;
+    for (const double start : starts) {
+      std::vector<BodyParticles> bodies = fill_bodies(settings);
+      if (start < as_laid) settle_section(bodies, start);
+      const double left = beside ? 0.0 : settle_in_place(bodies);
+      if (left < least) best = std::move(bodies), least = left;
+      if (least <= settled_residual) break;
+    }
+    begin(std::move(best));
   }
   for (Body& body : settings.bodies) body.start.reset();  // it may hold much
 }
 
-void Fluid::Implementation::settle_in_place() {
+double Fluid::Implementation::settle_in_place(std::vector<BodyParticles>& bodies) {
   const std::vector<Body> given = settings.bodies;
   const Vec3 gravity = settings.gravity;
   const Surroundings surroundings = settings.surroundings;
-  std::vector<BodyParticles> bodies = fill_bodies(settings);
-  sph::settle(*this, bodies);
+  const double left = sph::settle(*this, bodies).residual;
   std::copy(given.begin(), given.end(), settings.bodies.begin());  // groups point to them
   settings.gravity = gravity;
   settings.surroundings = surroundings;
-  begin(std::move(bodies));
+  return left;
 }
 
-void Fluid::Implementation::settle_meridian() {
+void Fluid::Implementation::settle_section(std::vector<BodyParticles>& bodies, double goal) const {
   Settings flat = settings;
   flat.axisymmetric = false;
-  std::vector<BodyParticles> sections = fill_bodies(flat), bodies = fill_bodies(settings);
+  std::vector<BodyParticles> sections = fill_bodies(flat);
   Water plane(flat);
   plane.walls = walls;
-  if (!sph::settle(plane, sections)) return;
+  if (!sph::settle(plane, sections, goal).moved) return;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<double>& volume = bodies[b].volume;
     const double before = std::accumulate(volume.begin(), volume.end(), 0.0);
@@ -69,7 +83,6 @@ void Fluid::Implementation::settle_meridian() {
     for (double& one : volume) one *= scale;
     bodies[b].position = std::move(sections[b].position);
   }
-  begin(std::move(bodies));
 }
 
 void Fluid::Implementation::fill(std::vector<BodyParticles> bodies) {

@@ -8,7 +8,7 @@
 namespace undex::sph::testing {
 namespace {
 
-constexpr double pressure = 1e7, rest = 5e-3;
+constexpr double pressure = 1e7, rest = 5e-3, settled = 3e-4;
 
 /// Water under pressure in a box of 16 spacings an edge, shifted against its lattice by `off` spacings.
 Settings box(int dimension, double off = 0.0) {
@@ -82,7 +82,16 @@ std::vector<Scene> uneasy_scenes() {
   Settings ring = box(2, 0.3);
   ring.axisymmetric = true;
   ring.symmetry.axis[0] = true;
-  all.push_back({"about_an_axis", ring, 10.0 * rest});  // sections settle, not rings
+  all.push_back({"about_an_axis", ring, settled});
+  Settings vessel = ring;
+  vessel.bodies[0].shape.base = vessel.walls[0].container = Sphere{.radius = 0.6};
+  vessel.walls[0].faces = {{"surface", FaceCondition::free_slip}};
+  all.push_back({"sphere_about_an_axis", vessel, 1e-3});  // of few spacings
+  vessel.axisymmetric = false;
+  vessel.dimension = 3;
+  vessel.symmetry.axis = {true, true, true};
+  vessel.numerics.precision = Precision::full;
+  all.push_back({"octant_of_a_sphere", vessel, settled});
   return all;
 }
 
