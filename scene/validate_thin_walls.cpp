@@ -1,6 +1,5 @@
-// Rigid walls between two containers that are thinner than the water's kernel reaches: the water of one meets that of the other
-// past them. (Walls that have a mesh hide what is behind them: sph_fluid/walls/sight.hpp.)
-#include "core/closed_surface.hpp"
+// Walls thinner than the water's kernel reaches that do not hide what is behind them: rigid ones between two containers, and
+// structures and solids with a dry face that has water before it. (Wet faces and obstacles hide it: sph_fluid/walls/sight.hpp.)
 #include "scene/validator.hpp"
 
 namespace undex::scene {
@@ -51,7 +50,8 @@ void Validator::thin_walls() {
   double coarsest = fluid_.lattice.spacing;
   for (const sph::Body& body : fluid_.bodies) coarsest = std::max(coarsest, body.spacing.value_or(0));
 
-  const auto look = [&](const Depth& solid, const std::vector<Vec3>& points, const std::string& who, const Node& node) {
+  const auto look = [&](const Depth& solid, const std::vector<Vec3>& points, const std::string& who, const Node& node,
+                        const std::string& remedy = {}) {
     const double reach = support * fluid_.numerics.eta, times = 2 * reach;  // in spacings
     const auto in_solid = [&](const Vec3& x) { return solid(mirrored(x)); };
     const std::size_t stride = 1 + points.size() / most_points;
@@ -70,7 +70,7 @@ void Validator::thin_walls() {
       const bool passes = *way < (times - 1) * spacing * (1 - 1e-3);
       const std::string message = who + " is " + rounded(*way) + " m thick at " + text(x, dimension_) +
                                   " m with water on both sides: the water's kernel reaches " + rounded(reach * spacing) +
-                                  " m, so pressure " + (passes ? "passes" : "may pass") + " through it; it needs " +
+                                  " m, so pressure " + (passes ? "passes" : "may pass") + " through it; " + remedy + "it needs " +
                                   rounded((times - 1) * spacing) + " m at least, better " + rounded(times * spacing) +
                                   " m, or a spacing of at most " + rounded(*way / (times - 1)) + " m";
       if (passes) complain(node, "shape", message);
@@ -79,6 +79,21 @@ void Validator::thin_walls() {
     }
   };
 
+  const auto is_dry = [](const std::vector<std::string>& wet, const std::string& face) {
+    return !wet.empty() && std::find(wet.begin(), wet.end(), face) == wet.end();
+  };
+  if (solid_ && dimension_ == 3 && scene_.structure)
+    for (const std::string& face : solid_->faces({false, false, false}))
+      if (is_dry(scene_.structure->wet_faces, face))
+        look([&](const Vec3& x) { return -solid_->signed_distance(x); }, solid_->face_points(face), "structure",
+             *draft_.structure_node, "add its face '" + face + "' to structure.wet; else ");
+  for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
+    const auto& solid = scene_.solids.bodies[i];
+    for (const std::string& face : shape_faces(solid.shape.base, dimension_, {false, false, false}))
+      if (is_dry(solid.wet, face))
+        look(inside(solid.shape, dimension_), face_points(solid.shape.base, face), "solids." + solid.name, *draft_.solid_nodes[i],
+             "add its face '" + face + "' to wet; else ");
+  }
   if (fluid_.walls.size() < 2 ||
       std::find(draft_.wall_shape_good.begin(), draft_.wall_shape_good.end(), false) != draft_.wall_shape_good.end())
     return;

@@ -167,7 +167,8 @@ Sight::Code Sight::code_of(int wall, int face) const {
 }
 
 void Sight::see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry, int dimension,
-                std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images) {
+                std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+                std::span<const SeenImage::Glass> glasses) {
   forget();
   if (!thin_) return;
   for (std::size_t w = 0; w < walls.size(); ++w)
@@ -184,9 +185,12 @@ void Sight::see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, co
   for (const WallFoot& foot : feet)
     if (foot.at.distance > 0.0) particle_[foot.particle] = with(particle_[foot.particle], code_of(foot.wall, foot.face));
   images_ = images;
+  glasses_ = glasses;
   image_.resize(images.size());
   for (std::size_t k = 0; k < images.size(); ++k) {
-    const Code owner = particle_[images[k].owner], mirror = code_of(images[k].wall, images[k].face);
+    const Code owner = particle_[images[k].owner];
+    const SeenImage::Glass* glass = images[k].first < images[k].last ? &glasses[images[k].first] : nullptr;
+    const Code mirror = glass ? code_of(glass->wall, glass->face) : Code(0);
     image_[k] = mirror == 0 ? owner : Code(mirror | (owner & edge));
   }
 }
@@ -381,6 +385,10 @@ double Sight::Way::beside(int but) const {
   return least;
 }
 
+bool Sight::Way::enters(const Vec3& normal) const {
+  return !crossings.empty() && crossings[0].entering && crossings[0].normal.dot(normal) > alike;
+}
+
 double Sight::Way::free_share() const { return is_free() ? 1.0 - graze(-1) : beside(-1); }
 
 void Sight::answer(const PairInput& in, const SightQuestion& question) const {
@@ -426,36 +434,42 @@ template <class Pieces>
 float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j,
                    const PairInput& in, Pieces about, Way& way) const {
   const bool images = question.what == SightOf::images, dummies = question.what == SightOf::dummies;
-  const bool mirror = images && images_[j].wall >= 0 && is_thin(images_[j].wall, images_[j].face);
+  bool mirror = false;
+  if (images)
+    for (std::uint32_t g = images_[j].first; g < images_[j].last; ++g)
+      mirror = mirror || is_thin(glasses_[g].wall, glasses_[g].face);
   const Code its = dummies ? Code(many | edge) : images ? image_[j] : particle_[j];
   if (mine == 0 || its == 0) return mirror ? 0.0f : 1.0f;
   const Code a = mine & many, b = its & many;
   if ((mine & its & edge) == 0 && a != many && b != many) return a == b ? 1.0f : 0.0f;
   if ((at - from).squaredNorm() > reach_ * reach_) return 0.0f;
   const unsigned axes = unsigned(question.mirror);
+  if (mirror) return float(mirrored_share(from, at, j, axes, about(), way));
   follow(from, at, about(), way);
-  if (dummies) {
-    const WallRow& row = in.wall[j];
-    const Vec3 normal = mirrored(Vec3(row.nx, row.ny, row.nz), axes);
-    return !way.crossings.empty() && way.crossings[0].entering && way.crossings[0].normal.dot(normal) > alike ? 1.0f : 0.0f;
+  if (!dummies) return float(way.free_share());
+  const WallRow& row = in.wall[j];
+  return way.enters(mirrored(Vec3(row.nx, row.ny, row.nz), axes)) ? 1.0f : 0.0f;
+}
+
+double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const {
+  double share = 1.0;
+  for (std::uint32_t g = images_[j].first; g < images_[j].last; ++g) {
+    const SeenImage::Glass& glass = glasses_[g];
+    const Vec3 normal = mirrored(glass.normal, axes), shown = mirrored(glass.shown, axes);
+    const int sheet = sheet_[glass.wall][glass.face];
+    follow(from, at, pieces, way);
+    const bool thick = !is_thin(glass.wall, glass.face), through = !thick && way.enters(normal);
+    const double grazed = way.graze(sheet);
+    share = std::min(share, thick ? way.free_share() : through ? 1.0 - grazed : std::min(grazed, way.beside(sheet)));
+    if (share <= 0.0) return 0.0;
+    // Beside an edge the mirror's plane lies halfway between the image and what it shows.
+    const double depth = (at - from).dot(normal), before = (0.5 * (at + shown) - from).dot(normal);
+    const double reached = through ? way.crossings[0].at : depth > 0.0 ? std::clamp(before / depth, 0.0, 1.0) : 0.0;
+    from += reached * (at - from) - 1e-6 * spacing_ * normal;
+    at = shown;
   }
-  if (!mirror) return float(way.free_share());
-  const SeenImage& image = images_[j];
-  const Vec3 normal = mirrored(image.normal, axes), shown = mirrored(image.shown, axes);
-  const int sheet = sheet_[image.wall][image.face];
-  const bool through = !way.crossings.empty() && way.crossings[0].entering && way.crossings[0].normal.dot(normal) > alike;
-  const double grazed = way.graze(sheet);
-  double share = through ? 1.0 - grazed : std::min(grazed, way.beside(sheet));
-  if (share <= 0.0) return 0.0f;
-  // The image stands as far behind the mirror's plane as what it shows before it.
-  const Vec3 middle = 0.5 * (at + shown);
-  const double depth = (at - from).dot(normal);
-  const double reached = through       ? way.crossings[0].at
-                         : depth > 0.0 ? std::clamp((middle - from).dot(normal) / depth, 0.0, 1.0)
-                                       : 0.0;
-  const Vec3 glass = from + reached * (at - from) - 1e-6 * spacing_ * normal;
-  follow(glass, shown, about(), way);
-  return way.is_free() ? float(share) : 0.0f;
+  follow(from, at, pieces, way);
+  return way.is_free() ? share : 0.0;
 }
 
 void Sight::weigh(const void* self, const PairInput& in, const SightQuestion& question) {
@@ -486,6 +500,7 @@ void Sight::forget() {
   particle_.clear();
   image_.clear();
   images_ = {};
+  glasses_ = {};
 }
 
 std::size_t Sight::memory_bytes() const {

@@ -26,12 +26,16 @@
 
 namespace undex::sph {
 
-/// An image as a question of sight.
+/// An image as a question of sight: the mirrors of walls on the way to its particle, the one that it stands behind first.
+/// Containers' faces hide nothing; what lies behind them is mirrored in them.
 struct SeenImage {
-  std::uint32_t owner;         ///< the particle shown
-  int wall = -1, face = -1;    ///< the mirror, -1: a container's face, which hides nothing
-  Vec3 shown = Vec3::Zero();   ///< what the mirror shows: its particle, or that one's image in containers' faces [m]
-  Vec3 normal = Vec3::Zero();  ///< the mirror's, away from the fluid
+  struct Glass {
+    int wall, face;
+    Vec3 shown;   ///< what it shows: the particle, or what the next shows [m]
+    Vec3 normal;  ///< away from the fluid
+  };
+  std::uint32_t owner;        ///< the particle
+  std::uint32_t first, last;  ///< of its glasses
 };
 
 class Sight {
@@ -43,7 +47,8 @@ class Sight {
 
   /// Walls, particles with their feet, and images where they are now; arrays by particle and by image.
   void see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry, int dimension,
-           std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images);
+           std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+           std::span<const SeenImage::Glass> glasses);
 
   /// Hands it to a loop over pairs.
   void describe(PairInput& in) const;
@@ -80,6 +85,8 @@ class Sight {
     std::vector<Graze> grazed;
 
     bool is_free() const;
+    /// Is the first wall one that looks as `normal` does?
+    bool enters(const Vec3& normal) const;
     /// Of the open edges of a sheet, or of all (-1).
     double graze(int sheet) const;
     double beside(int but) const;
@@ -101,6 +108,8 @@ class Sight {
   template <class Pieces>
   float share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j, const PairInput& in,
               Pieces about, Way& way) const;
+  /// The same of an image in a thin wall.
+  double mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const;
   static void weigh(const void* self, const PairInput& in, const SightQuestion& question);
   void answer(const PairInput& in, const SightQuestion& question) const;
 
@@ -119,6 +128,7 @@ class Sight {
   std::vector<std::uint32_t> start_, member_;
   std::vector<Code> particle_, image_;
   std::span<const SeenImage> images_;
+  std::span<const SeenImage::Glass> glasses_;
 };
 
 }  // namespace undex::sph

@@ -95,7 +95,7 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                                 const Particles& particles, std::span<const ParticleRange> ranges, double reach) {
   find_shown(particles);
   if (linings_.empty()) {
-    sight_.see(walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_);
+    sight_.see(walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_, glasses_);
     return;
   }
   const std::vector<Footprint> alone = [&] {
@@ -112,7 +112,8 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                 [&](int wall, int face) { return open_edges(first + wall, face, lining_sheets_[wall]); });
   for (WallFoot& foot : feet) foot.wall += first;
   feet.insert(feet.end(), feet_.begin(), feet_.end());
-  sight_.see(joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_);
+  sight_.see(joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_,
+             glasses_);
 }
 
 unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const {
@@ -121,24 +122,28 @@ unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const 
 
 void WallImages::find_shown(const Particles& particles) {
   shown_.resize(images_.size());
+  glasses_.clear();
+  std::vector<SeenImage::Glass> chain;
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
-    SeenImage seen{.owner = images_[c].owner};
-    Vec3 before = place_of(particles, seen.owner);  // where the last mirror's object stands
+    chain.clear();
+    Vec3 before = place_of(particles, images_[c].owner);  // where the next mirror's object stands
     for_each_mirror(c, [&](const Image& image) {
-      const Vec3 way = image.place - before;
       if (image.foot >= 0 && !image.radiating) {
-        seen.wall = feet_[image.foot].wall, seen.face = feet_[image.foot].face;
-        seen.shown = before;
-        seen.normal = image.normal;
-      } else if (image.normal.isZero()) {
-        seen.shown += way;
+        chain.push_back({feet_[image.foot].wall, feet_[image.foot].face, before, image.normal});
       } else {
-        seen.shown = reflected(seen.shown, image.normal) + (image.place + before).dot(image.normal) * image.normal;
-        seen.normal = reflected(seen.normal, image.normal);
+        for (SeenImage::Glass& glass : chain)
+          if (image.normal.isZero()) {
+            glass.shown += image.place - before;
+          } else {
+            glass.shown = reflected(glass.shown, image.normal) + (image.place + before).dot(image.normal) * image.normal;
+            glass.normal = reflected(glass.normal, image.normal);
+          }
       }
       before = image.place;
     });
-    shown_[slot_[c]] = seen;
+    const std::uint32_t first = std::uint32_t(glasses_.size());
+    glasses_.insert(glasses_.end(), chain.rbegin(), chain.rend());
+    shown_[slot_[c]] = {images_[c].owner, first, std::uint32_t(glasses_.size())};
   }
 }
 
@@ -210,6 +215,7 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                       .radiating = walls[foot->wall].radiates(),
                       .lead = wall.lead});
   }
+  add_images_between(seen, depth, settings, mark, images);
   for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
       if (wall.ends >= 0)
@@ -225,6 +231,38 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
       each([&](const Vec3& at, int parent) {
         images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
       });
+}
+
+void WallImages::add_images_between(const SeenMirrors& seen, double depth, const Settings& settings, std::size_t mark,
+                                    std::vector<Image>& images) const {
+  const std::size_t single = images.size();
+  if (single < mark + 2) return;
+  constexpr int most = 4;  // further mirrors, one after the other
+  const auto add = [&](std::size_t parent, const Image& mirror) {
+    Image image = mirror;
+    const Vec3 place = images[parent].place;
+    const double distance = (seen.point(feet_[mirror.foot]).foot - place).dot(mirror.normal);
+    if (distance <= 0.0 || distance >= depth) return false;
+    image.parent = int(parent);
+    image.place = place + 2.0 * distance * mirror.normal;
+    image.stretch = settings.axisymmetric ? image.place[0] / place[0] : 1.0;
+    images.push_back(image);
+    return true;
+  };
+  for (std::size_t a = mark; a < single; ++a)
+    for (std::size_t b = mark; b < single; ++b) {
+      const Image first = images[a], second = images[b];
+      if (first.foot < 0 || second.foot < 0 || first.radiating || second.radiating) continue;
+      const WallFoot &foot = feet_[first.foot], &other = feet_[second.foot];
+      if (foot.wall == other.wall && sheets_[foot.wall].sheet(foot.face) == sheets_[foot.wall].sheet(other.face)) continue;
+      const double turned = first.normal.dot(second.normal);
+      if (turned < -0.5) {
+        std::size_t last = a;
+        for (int k = 0; k < most && add(last, k % 2 == 0 ? second : first); ++k) last = images.size() - 1;
+      } else if (turned < 0.5 && a < b && foot.wall != other.wall) {
+        add(a, second);
+      }
+    }
 }
 
 void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls,

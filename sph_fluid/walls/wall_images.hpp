@@ -98,6 +98,9 @@ class WallImages {
                  const std::vector<MirrorWall>& walls, const Settings& settings);
   /// What pairs read of an image as a ring; gives the row its area.
   RingRow ring_of(std::uint32_t c, const Particles& particles, const RingKernel& rings, FluidRow& row) const;
+  /// Appends the images between walls that face each other, or meet: from `mark` on those in the walls themselves are there.
+  void add_images_between(const SeenMirrors& seen, double depth, const Settings& settings, std::size_t mark,
+                          std::vector<Image>& images) const;
   /// Sorts the images from `start` on by cell.
   void sort_from(std::uint32_t start, double width, CellList& cells);
   /// Calls visit(image) from the particle's own image on to image c of it.
@@ -120,6 +123,7 @@ class WallImages {
   std::vector<MirrorWall> linings_;  // surfaces of lined walls
   std::vector<Sheets> lining_sheets_;
   Sight sight_;
+  std::vector<SeenImage::Glass> glasses_;
   std::vector<SeenImage> shown_;     // sorted by cell
   std::vector<WallFoot> feet_;       // sorted by particle
   std::vector<Image> images_;        // by particle, parents before their images

@@ -34,7 +34,7 @@ std::vector<Vec3> some_field(std::size_t n, double phase) {
 
 TEST(Footprint, KeepsForceAndPower) {
   const Plate p = plate(9, 0.01);
-  const Footprint footprint(p.faces, p.x, 0.035, {false, false, false});
+  const Footprint footprint(p.faces, p.x, 0.035, {false, false, false}, false);
   const std::vector<Vec3> force = some_field(p.x.size(), 0.3), velocity = some_field(p.x.size(), 0.7);
   std::vector<Vec3> handed(p.x.size(), Vec3::Zero());
   footprint.spread(force, handed);
@@ -54,7 +54,7 @@ TEST(Footprint, KeepsForceAndPower) {
 
 TEST(Footprint, LeavesAMeshWiderThanItselfAlone) {
   const Plate p = plate(5, 0.01);
-  const Footprint footprint(p.faces, p.x, 0.01, {false, false, false});
+  const Footprint footprint(p.faces, p.x, 0.01, {false, false, false}, false);
   const std::vector<Vec3> v = some_field(p.x.size(), 0.1), seen = footprint.seen(v);
   for (std::size_t n = 0; n < v.size(); ++n) EXPECT_LT((seen[n] - v[n]).norm(), 1e-15);
 }
@@ -70,8 +70,8 @@ TEST(Footprint, SymmetryIsTheWholePlate) {
   std::vector<Vec3> in_part, in_whole;
   for (const Vec3& x : part.x) in_part.push_back(field(x));
   for (const Vec3& x : whole.x) in_whole.push_back(field(x));
-  const Footprint of_part(part.faces, part.x, 0.032, {true, true, false}),
-      of_whole(whole.faces, whole.x, 0.032, {false, false, false});
+  const Footprint of_part(part.faces, part.x, 0.032, {true, true, false}, false),
+      of_whole(whole.faces, whole.x, 0.032, {false, false, false}, false);
   const std::vector<Vec3> a = of_part.seen(in_part), b = of_whole.seen(in_whole);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {

@@ -105,6 +105,33 @@ TEST(Sight, WaterAtAnEdgeIsAtRest) {
   }
 }
 
+/// A double bottom: three waters, that in the middle as thin as `gap` spacings, and two plates of one spacing. Pressure stands still
+/// in each of them, whatever it is in the others.
+TEST(Sight, WaterInADoubleBottomIsAtRest) {
+  for (const int gap : {1, 2, 3, 4}) {
+    Settings settings;
+    settings.lattice.spacing = dx;
+    settings.lattice.settle = false;
+    settings.numerics.threads = 1;
+    const double wide = 4 * dx, low = dx, high = (1 + gap) * dx;
+    settings.bodies = {body("below", box(Vec3(0, 0, -6 * dx), Vec3(wide, wide, 0)), "water-tait"),
+                       body("between", box(Vec3(0, 0, low), Vec3(wide, wide, high)), "water-tait"),
+                       body("above", box(Vec3(0, 0, high + dx), Vec3(wide, wide, high + 7 * dx)), "water-tait")};
+    settings.bodies[0].pressure = 1e8;
+    settings.bodies[1].pressure = 2e8;
+    settings.bodies[2].pressure = 3e8;
+    settings.walls = {box_wall(Vec3(0, 0, -6 * dx), Vec3(wide, wide, high + 7 * dx))};
+    Fluid fluid(settings);
+    fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(wide, wide, low), 3, false));
+    fluid.add_wall(plate(Vec3(0, 0, high), Vec3(wide, wide, high + dx), 3, false));
+    const double dt = fluid.step_limit().step;
+    fluid.step(dt);
+    double fastest = 0;
+    for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
+    EXPECT_LT(fastest, 1e-6 * 2e8 / (1000.0 * dx) * dt) << gap << " spacings";
+  }
+}
+
 /// What a moving plate gives and takes, edges included, is what the water takes and gives.
 TEST(Sight, AMovingPlateReceivesWhatTheFluidLoses) {
   double error[2];
