@@ -1,5 +1,5 @@
 // Who sees whom past thin walls. A mirror wall that is thinner than two reaches of the kernel, or that turns away from the fluid
-// at an edge, does not part the particles on its sides by distance alone. There a pair counts if light went from one to the other:
+// at an edge, does not part the particles on its sides by distance alone. There a pair counts if light went between the two:
 // - two particles, if the straight way between them meets no wall;
 // - a particle and an image, if the way goes through the mirror whose image it is, meets no wall before it, and the way from
 //   there to the particle shown is free too;

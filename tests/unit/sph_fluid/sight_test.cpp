@@ -105,8 +105,8 @@ TEST(Sight, WaterAtAnEdgeIsAtRest) {
   }
 }
 
-/// A double bottom: three waters, that in the middle as thin as `gap` spacings, and two plates of one spacing. Pressure stands still
-/// in each of them, whatever it is in the others.
+/// A double bottom: three waters, that in the middle `gap` spacings thick, and two plates of one spacing. Each of them is at rest
+/// under its own pressure.
 TEST(Sight, WaterInADoubleBottomIsAtRest) {
   for (const int gap : {1, 2, 3, 4}) {
     Settings settings;
