@@ -139,7 +139,14 @@ class ClusterWork {
   using Second = typename State::Second;
   static constexpr bool with_second = !same_type<Second, NoRow>;
   static constexpr bool rings = over_rings<Pass>;
+  /// Candidates that are seen across the same symmetry planes.
+  struct Piece {
+    std::uint32_t begin, real;
+    int image;
+  };
   using List = CandidateList<T, Second, Pass::symmetric ? Sums::count : 0, rings>;
+  /// What gives a candidate its share of a pair: the pair's weight, or where nothing is given back a volume (of a ring its area).
+  static constexpr int counted = Pass::symmetric ? List::weight : List::state + (rings ? 2 : 4) * W;
 
  public:
   ClusterWork(const PairInput& in, const Pass& pass, const Cluster& cluster, Scratch& scratch, const PairOutput& out)
@@ -205,11 +212,7 @@ class ClusterWork {
     if (Pass::partners == Partners::other_bodies && body == cluster_.group) return;
     const double *x = images ? in_.images.x : in_.x, *y = images ? in_.images.y : in_.y, *z = images ? in_.images.z : in_.z;
     const std::uint32_t next = images ? 0 : cluster_.begin + cluster_.count;
-    struct {
-      std::uint32_t begin, real;
-      int image;
-    } pieces[8];
-    int count = 0;
+    piece_count_ = 0;
     list_.size = 0;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       const std::uint32_t begin = list_.size;
@@ -220,19 +223,17 @@ class ClusterWork {
         for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, x[k], y[k], z[k]);
       }
       scan_grid(other.grid, x, y, z, box, reach, Pass::symmetric ? next : 0, list_);
-      pieces[count++] = {begin, list_.size, image};
+      pieces_[piece_count_++] = {begin, list_.size, image};
       fill(begin, images ? list_.size - begin : own, images, image, reach);
     });
     // Images reach beyond the wall that they stand behind.
     looks_ = beside_thin_wall_ || (images && in_.sight.self != nullptr);
-    if (looks_)
-      for (int k = 0; k < count; ++k)
-        look(pieces[k].begin, pieces[k].real, images ? SightOf::images : SightOf::particles, pieces[k].image);
+    for (int k = 0; looks_ && k < piece_count_; ++k) look(pieces_[k], images ? SightOf::images : SightOf::particles);
     pairs_with<State, Sums, Pass::symmetric>(kind);
     looks_ = false;
     if constexpr (Pass::symmetric)
-      for (int k = 0; k < count; ++k)
-        list_.template scatter_sums<Sums>(pieces[k].begin, pieces[k].real, images ? out_.images : out_.fluid, pieces[k].image);
+      for (int k = 0; k < piece_count_; ++k)
+        list_.template scatter_sums<Sums>(pieces_[k].begin, pieces_[k].real, images ? out_.images : out_.fluid, pieces_[k].image);
   }
 
   void with_walls() {
@@ -247,7 +248,9 @@ class ClusterWork {
       list_.fill_places(0, real, origin_, image, T(1e3 * reach));
       list_.template fill_rows<List::state>(0, in_.wall, image);
       looks_ = beside_thin_wall_;
-      if (looks_) look(0, real, SightOf::dummies, image);
+      pieces_[0] = {0, real, image};
+      piece_count_ = 1;
+      if (looks_) look(pieces_[0], SightOf::dummies);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
         list_.template scatter_sums<WallSums<V>>(0, real, out_.wall, image);
@@ -258,13 +261,31 @@ class ClusterWork {
     });
   }
 
-  /// How much the cluster's particles see of the candidates first..last, and nothing of what fills up the last block.
-  void look(std::uint32_t first, std::uint32_t last, SightOf what, int image) {
+  /// How much the cluster's particles see of the candidates of a piece.
+  void look(const Piece& piece, SightOf what) {
     Scratch& s = list_.scratch();
     in_.sight.answer(in_.sight.self, in_,
-                     {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, first, last, image, s.share, s.capacity});
-    for (int l = 0; l < cluster_.count; ++l)
-      for (std::uint32_t c = last; c % W != 0; ++c) s.share[std::size_t(l) * s.capacity + c] = 0.0f;
+                     {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, piece.begin, piece.real, piece.image, s.share,
+                      s.capacity});
+    for (std::uint32_t c = piece.begin; c < piece.real; ++c) {
+      const T* block = list_.block(c / W) + c % W;
+      s.kept[2 * c] = double(block[List::place]);
+      s.kept[2 * c + 1] = double(block[counted]);
+    }
+  }
+
+  /// The candidates as particle l of the cluster sees them: the hidden ones stand far away.
+  template <bool wall>
+  __attribute__((noinline)) void show(int l) {
+    const Scratch& s = list_.scratch();
+    const float* share = s.share + std::size_t(l) * s.capacity;
+    const double far = 1e3 * kernel_.support * h_cluster_;
+    for (int k = 0; k < piece_count_; ++k)
+      for (std::uint32_t c = pieces_[k].begin; c < pieces_[k].real; ++c) {
+        T* block = list_.block(c / W) + c % W;
+        block[List::place] = T(share[c] > 0.0f ? s.kept[2 * c] : far);
+        if constexpr (!wall) block[counted] = T(share[c] * s.kept[2 * c + 1]);
+      }
   }
 
   const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
@@ -288,6 +309,7 @@ class ClusterWork {
         for (int k = 0; k < OtherSums::count; ++k) store(list_.block(b) + List::sum + k * W, V{});
     if (list_.size == 0) return;
     for (int l = 0; l < cluster_.count; ++l) {
+      if (looks_) show<same_type<Other, Wall>>(l);
       if (kind.constant_h) pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
       else pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
     }
@@ -310,9 +332,6 @@ class ClusterWork {
     pair.gas = kind.gas;
     pair.alike = kind.alike;
     pair.least_pressure = T(kind.least_pressure);
-    const float* share = looks_ ? list_.scratch().share + std::size_t(l) * list_.scratch().capacity : nullptr;
-    V seen = broadcast(T(1));
-    const T unseen = T(1e6 * h_cluster_ * h_cluster_);  // out of reach
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());
     for (; block != end; block += List::stride) {
@@ -325,16 +344,7 @@ class ClusterWork {
       pair.dy = y - load(block + List::place + W);
       pair.dz = z - load(block + List::place + 2 * W);
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
-      if (share != nullptr) {
-        for (int k = 0; k < W; ++k) seen[k] = T(share[k]);
-        pair.r2 = seen > 0 ? pair.r2 : broadcast(unseen);
-        share += W;
-      }
       smoothing.template evaluate<rings>(pair, block + List::state + 7 * W);
-      if (share != nullptr) {
-        pair.F *= seen;
-        if constexpr (rings) pair.W *= seen;
-      }
       if constexpr (wall || !Pass::symmetric) {
         met += keep(pair.in_reach, broadcast(T(0.5)));
       } else {
@@ -394,6 +404,8 @@ class ClusterWork {
   V sums_[cluster_size][Sums::count] = {};
   V met_{};  // half the neighbours met
   bool beside_thin_wall_ = false, looks_ = false;
+  Piece pieces_[8];
+  int piece_count_ = 0;
 };
 
 /// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away

@@ -31,13 +31,14 @@ void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
     enlarge(s.index, s.capacity * sizeof *s.index, candidates * sizeof *s.index);
     for (double** axis : {&s.x, &s.y, &s.z}) enlarge(*axis, s.capacity * sizeof **axis, candidates * sizeof **axis);
     enlarge(s.share, 0, candidates * cluster_size * sizeof *s.share);
+    enlarge(s.kept, s.capacity * 2 * sizeof *s.kept, candidates * 2 * sizeof *s.kept);
     s.capacity = candidates;
   }
 }
 
 void release(Scratch& s) {
   for (void* data : {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y),
-                     static_cast<void*>(s.z), static_cast<void*>(s.share)})
+                     static_cast<void*>(s.z), static_cast<void*>(s.share), static_cast<void*>(s.kept)})
     std::free(data);
   s = {};
 }

@@ -98,6 +98,7 @@ struct Scratch {
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
   std::uint32_t capacity = 0;                       ///< of the last four
   float* share = nullptr;                           ///< cluster_size times as many: see SightQuestion
+  double* kept = nullptr;                           ///< twice as many: what candidates are before shares are taken of them
 };
 /// Makes room, keeping what is there.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);

@@ -10,7 +10,7 @@
 namespace undex::sph {
 namespace {
 
-constexpr double smooth = 0.5;  // cosine of the largest turn within a sheet
+constexpr double smooth = 0.3;  // cosine of the largest turn within a sheet
 
 Vec3 area_vector(const std::array<int, 4>& face, std::span<const Vec3> position) {
   const std::array<Vec3, 4> x = corners_of(face, position);

@@ -1,4 +1,4 @@
-// The sheets of a mirror mesh: faces joined by edges across which the surface turns by less than sixty degrees. A sheet ends at
+// The sheets of a mirror mesh: faces joined by edges across which the surface turns by less than seventy degrees. A sheet ends at
 // its open edges: where the mesh ends, and where the wall turns away from the fluid, as a box does at its edges.
 #pragma once
 

@@ -12,7 +12,7 @@
 namespace undex::sph {
 namespace {
 
-constexpr double alike = 0.5;  // cosine between normals of faces that look the same way
+constexpr double alike = 0.3;  // cosine between normals of faces that look the same way
 
 /// A face's middle, unit normal and the radius of the ball about it [m].
 struct FaceBall {
@@ -47,6 +47,17 @@ double distance_between(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3&
   return (r + t * d - s * e).norm();
 }
 
+/// Is x within `tolerance` [m] of a face?
+bool lies_on(const Vec3& x, const std::array<Vec3, 4>& face, double tolerance) {
+  const Vec3 normal = (face[2] - face[0]).cross(face[3] - face[1]).normalized();
+  bool inside = std::abs((x - face[0]).dot(normal)) < tolerance;
+  for (int c = 0; c < 4 && inside; ++c) {
+    const Vec3 side = face[(c + 1) % 4] - face[c];
+    inside = normal.dot(side.cross(x - face[c])) > -tolerance * side.norm();
+  }
+  return inside;
+}
+
 double distance_to_edge(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
   const double length = along.squaredNorm();
@@ -58,21 +69,21 @@ double distance_to_edge(const Vec3& x, const Vec3& a, const Vec3& b) {
 
 void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing) {
   const double margin = 0.5 * spacing;
-  bool moved = looked_at_.size() != walls.size() || reach > reach_;
+  bool moved = looked_at_.size() != walls.size();
   for (std::size_t w = 0; w < walls.size() && !moved; ++w) {
     if (walls[w].radiates()) continue;
     for (std::size_t n = 0; n < walls[w].position.size() && !moved; ++n)
       moved = !((walls[w].position[n] - looked_at_[w][n]).squaredNorm() < 0.25 * margin * margin);
   }
   if (!moved) return;
-  reach_ = reach;
   spacing_ = spacing;
   looked_at_.clear();
-  kind_.clear();
+  plain_.clear();
   sheet_.clear();
   open_.clear();
   first_sheet_.clear();
   thin_ = false;
+  thin_wall_.clear();
 
   struct Seat {
     int wall, face;
@@ -85,7 +96,7 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const MirrorWall& wall = walls[w];
     looked_at_.push_back(wall.position);
-    kind_.emplace_back(wall.faces.size(), Kind::thick);
+    plain_.emplace_back(wall.faces.size(), true);
     first_sheet_.push_back(sheet_count);
     sheet_.emplace_back();
     open_.emplace_back();
@@ -107,13 +118,17 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
     const Vec3 low = x - Vec3::Constant(radius), high = x + Vec3::Constant(radius);
     for_each_in_cells(cells.view(), low.data(), high.data(), [&](std::uint32_t s) { visit(cells.order()[s]); });
   };
-  const double through = 2.0 * reach + margin, beside = reach + margin;
-  // Thin are faces with another behind them that looks the other way, and those beside an edge where the wall goes on behind.
+  // Of two that meet through a wall one is an image, half a spacing less than a reach behind its mirror, and the other stands half
+  // a spacing before the wall's other face.
+  const double through = 2.0 * reach - spacing, beside = reach + margin;
+  // A wall is thin where a face has another behind it that looks the other way, or is beside an edge that the wall goes on behind.
   const int faces = int(seats.size());
+  std::vector<char> hides(walls.size(), 0);
 #pragma omp parallel for schedule(dynamic, 64)
   for (int k = 0; k < faces; ++k) {
     const FaceBall& me = balls[k];
     bool thin = false;
+    if (hides[seats[k].wall] != 0) continue;
     for_each_face_near(me.middle, through + me.radius + largest, [&](std::uint32_t j) {
       if (thin) return;
       const Vec3 way = balls[j].middle - me.middle;
@@ -129,13 +144,15 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
           thin = distance_to_edge(me.middle, wall.position[nodes[e]], wall.position[nodes[(e + 1) % 4]]) < me.radius + beside;
         }
     });
-    if (thin) kind_[seats[k].wall][seats[k].face] = Kind::plain;
+    if (!thin) continue;
+#pragma omp atomic write
+    hides[seats[k].wall] = 1;
   }
-  // Not plain are those that lie near an open edge, or from which another sheet can be seen.
+  thin_wall_.assign(hides.begin(), hides.end());
+  // Not plain are faces that lie near an open edge, or from which another sheet can be seen.
 #pragma omp parallel for schedule(dynamic, 64)
   for (int k = 0; k < faces; ++k) {
-    Kind& kind = kind_[seats[k].wall][seats[k].face];
-    if (kind == Kind::thick) continue;
+    if (!thin_wall_[seats[k].wall]) continue;
     const FaceBall& me = balls[k];
     const int sheet = sheet_[seats[k].wall][seats[k].face];
     bool plain = true;
@@ -154,26 +171,40 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
           plain = distance_to_edge(me.middle, x[nodes[e]], x[nodes[(e + 1) % 4]]) > me.radius + beside;
         }
     });
-    if (!plain) kind = Kind::edge;
+    plain_[seats[k].wall][seats[k].face] = plain;
   }
-  for (const auto& kinds : kind_)
-    for (const Kind kind : kinds) thin_ = thin_ || kind != Kind::thick;
+  // An edge that stands on another wall is not open.
+  for (int k = 0; k < faces && walls.size() > 1; ++k) {
+    const auto [w, f] = seats[k];
+    for (int e = 0; e < 4; ++e) {
+      if (!thin_wall_[w] || !(open_[w][f] >> e & 1)) continue;
+      const std::array<Vec3, 4> x = corners_of(walls[w].faces[f], walls[w].position);
+      const Vec3 middle = 0.5 * (x[e] + x[(e + 1) % 4]);
+      for_each_face_near(middle, largest + spacing, [&](std::uint32_t j) {
+        if (seats[j].wall == w) return;
+        const MirrorWall& other = walls[seats[j].wall];
+        if (lies_on(middle, corners_of(other.faces[seats[j].face], other.position), 1e-3 * spacing)) open_[w][f] &= ~(1u << e);
+      });
+    }
+  }
+  for (const bool thin : thin_wall_) thin_ = thin_ || thin;
 }
 
 Sight::Code Sight::code_of(int wall, int face) const {
-  if (wall < 0 || kind_[wall][face] == Kind::thick) return 0;
+  if (!thin_wall_[wall]) return 0;
   const Code sheet = Code(std::min(sheet_[wall][face], int(many)));
-  return kind_[wall][face] == Kind::plain ? sheet : Code(sheet | edge);
+  return plain_[wall][face] ? sheet : Code(sheet | edge);
 }
 
-void Sight::see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry, int dimension,
-                std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+void Sight::see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
+                int dimension, std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
                 std::span<const SeenImage::Glass> glasses) {
   forget();
   if (!thin_) return;
+  reach_ = reach;
   for (std::size_t w = 0; w < walls.size(); ++w)
     for (std::size_t f = 0; f < walls[w].faces.size(); ++f)
-      if (kind_[w][f] != Kind::thick)
+      if (thin_wall_[w])
         add_face(corners_of(walls[w].faces[f], walls[w].position), sheet_[w][f], open_[w][f], faces, symmetry, dimension);
   sort_pieces(dimension);
   const auto with = [](Code a, Code b) -> Code {
@@ -436,15 +467,14 @@ float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuest
   const bool images = question.what == SightOf::images, dummies = question.what == SightOf::dummies;
   bool mirror = false;
   if (images)
-    for (std::uint32_t g = images_[j].first; g < images_[j].last; ++g)
-      mirror = mirror || is_thin(glasses_[g].wall, glasses_[g].face);
+    for (std::uint32_t g = images_[j].first; g < images_[j].last; ++g) mirror = mirror || is_thin(glasses_[g].wall);
   const Code its = dummies ? Code(many | edge) : images ? image_[j] : particle_[j];
   if (mine == 0 || its == 0) return mirror ? 0.0f : 1.0f;
   const Code a = mine & many, b = its & many;
   if ((mine & its & edge) == 0 && a != many && b != many) return a == b ? 1.0f : 0.0f;
   if ((at - from).squaredNorm() > reach_ * reach_) return 0.0f;
   const unsigned axes = unsigned(question.mirror);
-  if (mirror) return float(mirrored_share(from, at, j, axes, about(), way));
+  if (images && images_[j].first < images_[j].last) return float(mirrored_share(from, at, j, axes, about(), way));
   follow(from, at, about(), way);
   if (!dummies) return float(way.free_share());
   const WallRow& row = in.wall[j];
@@ -458,9 +488,9 @@ double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes,
     const Vec3 normal = mirrored(glass.normal, axes), shown = mirrored(glass.shown, axes);
     const int sheet = sheet_[glass.wall][glass.face];
     follow(from, at, pieces, way);
-    const bool thick = !is_thin(glass.wall, glass.face), through = !thick && way.enters(normal);
+    const bool thick = !is_thin(glass.wall), through = way.enters(normal);
     const double grazed = way.graze(sheet);
-    share = std::min(share, thick ? way.free_share() : through ? 1.0 - grazed : std::min(grazed, way.beside(sheet)));
+    share = std::min(share, through ? 1.0 - grazed : thick ? way.free_share() : std::min(grazed, way.beside(sheet)));
     if (share <= 0.0) return 0.0;
     // Beside an edge the mirror's plane lies halfway between the image and what it shows.
     const double depth = (at - from).dot(normal), before = (0.5 * (at + shown) - from).dot(normal);
@@ -506,7 +536,7 @@ void Sight::forget() {
 std::size_t Sight::memory_bytes() const {
   std::size_t bytes = pieces_.capacity() * sizeof(Piece) + (start_.capacity() + member_.capacity()) * sizeof(std::uint32_t) +
                       (particle_.capacity() + image_.capacity()) * sizeof(Code);
-  for (const auto& kinds : kind_) bytes += kinds.capacity() * (sizeof(Kind) + sizeof(int) + sizeof(Vec3));
+  for (const auto& faces : plain_) bytes += faces.capacity() * (2 * sizeof(int) + sizeof(Vec3));
   return bytes;
 }
 

@@ -40,14 +40,14 @@ struct SeenImage {
 
 class Sight {
  public:
-  /// Finds the thin faces where walls have moved since they were sought; `reach` [m] of pairs.
+  /// Finds the thin walls where walls have moved since they were sought; `reach` [m] of pairs of liquid.
   void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing);
   bool empty() const { return !thin_; }
-  bool is_thin(int wall, int face) const { return thin_ && kind_[wall][face] != Kind::thick; }
+  bool is_thin(int wall) const { return thin_ && thin_wall_[wall]; }
 
-  /// Walls, particles with their feet, and images where they are now; arrays by particle and by image.
-  void see(const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry, int dimension,
-           std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+  /// Walls, particles with their feet, and images where they are now; arrays by particle and by image; `reach` [m] of all pairs.
+  void see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
+           int dimension, std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
            std::span<const SeenImage::Glass> glasses);
 
   /// Hands it to a loop over pairs.
@@ -60,7 +60,6 @@ class Sight {
   std::size_t memory_bytes() const;
 
  private:
-  enum class Kind : unsigned char { thick, plain, edge };
   /// Half a face, or an open edge: `across` and the normal are zero.
   struct Piece {
     Vec3 corner, along, across, normal;
@@ -115,8 +114,9 @@ class Sight {
 
   double reach_ = 0, spacing_ = 0;
   bool thin_ = false;
+  std::vector<bool> thin_wall_;               // per wall: is it thin somewhere?
   std::vector<std::vector<Vec3>> looked_at_;  // where the walls' nodes were [m]
-  std::vector<std::vector<Kind>> kind_;       // per wall and face
+  std::vector<std::vector<char>> plain_;      // per wall and face: no open edge and no other wall within reach
   std::vector<int> first_sheet_;              // per wall
   std::vector<std::vector<int>> sheet_;       // per wall and face, as the next
   std::vector<std::vector<unsigned>> open_;

@@ -31,6 +31,14 @@ std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
   return a;
 }
 
+/// Of pairs of particles that keep their smoothing length [m].
+double reach_of_liquid(const Settings& settings) {
+  double spacing = settings.lattice.spacing;
+  for (const Body& body : settings.bodies)
+    if (!body.variable_h) spacing = std::max(spacing, body.spacing.value_or(0.0));
+  return kernel_support(settings.numerics.kernel) * smoothing_length(settings, spacing);
+}
+
 Sheets sheets_of(const MirrorWall& wall, const Settings& settings, const SlipFaces& faces) {
   return {wall.faces, wall.position, settings.symmetry.axis, faces, 1e-3 * settings.lattice.spacing};
 }
@@ -48,7 +56,7 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
                        const std::function<void(std::span<const WallFoot>)>& on_feet) {
   see_first_places(settings, faces, walls);
   SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis, settings.lattice.spacing);
-  look(settings, faces, walls, reach);
+  look(settings, faces, walls);
   std::function<unsigned(int, int)> open;
   if (!sight_.empty()) open = [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); };
   feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing, open);
@@ -79,7 +87,8 @@ void WallImages::see_linings(const std::vector<LinedWall>& walls) {
   }
 }
 
-void WallImages::look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, double reach) {
+void WallImages::look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls) {
+  const double reach = reach_of_liquid(settings);
   if (linings_.empty()) {
     sight_.look(walls, sheets_, reach, settings.lattice.spacing);
     return;
@@ -95,7 +104,7 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                                 const Particles& particles, std::span<const ParticleRange> ranges, double reach) {
   find_shown(particles);
   if (linings_.empty()) {
-    sight_.see(walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_, glasses_);
+    sight_.see(reach, walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_, glasses_);
     return;
   }
   const std::vector<Footprint> alone = [&] {
@@ -112,12 +121,12 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                 [&](int wall, int face) { return open_edges(first + wall, face, lining_sheets_[wall]); });
   for (WallFoot& foot : feet) foot.wall += first;
   feet.insert(feet.end(), feet_.begin(), feet_.end());
-  sight_.see(joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_,
+  sight_.see(reach, joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_,
              glasses_);
 }
 
 unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const {
-  return sight_.is_thin(wall, face) ? sheets.open(face) : 0u;
+  return sight_.is_thin(wall) ? sheets.open(face) : 0u;
 }
 
 void WallImages::find_shown(const Particles& particles) {
@@ -330,8 +339,8 @@ WallShare WallImages::put_back_from_mirrors(const Settings& settings, const std:
   WallShare work;
   for (WallFoot foot : feet_) {
     const std::uint32_t i = foot.particle;
-    if (foot.at.distance > far) continue;                                           // farther than a step can take it
-    if (foot.at.distance <= 0.0 && sight_.is_thin(foot.wall, foot.face)) continue;  // it stands on the other side
+    if (foot.at.distance > far) continue;                                // farther than a step can take it
+    if (foot.at.distance <= 0.0 && sight_.is_thin(foot.wall)) continue;  // it stands on the other side
     if (!seen.patch(foot.wall, foot.face).project(place_of(particles, i), far, foot.at) || foot.at.distance >= 0.0) continue;
     const WallPoint wall = seen.point(foot);
     const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);

@@ -43,8 +43,7 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
     for (std::size_t k = 0; k < wall.position.size(); ++k) origin.push_back({number, std::uint32_t(k), wall.position[k]});
   };
   mirrors_.clear();
-  const double depth = with_kernel(settings.numerics.kernel, [](auto kernel) { return double(kernel.support); }) *
-                       smoothing_length(settings, settings.lattice.spacing);
+  const double depth = kernel_support(settings.numerics.kernel) * smoothing_length(settings, settings.lattice.spacing);
   for (std::size_t w = 0; w < moving.size(); ++w) {
     const std::size_t first = origin.size();
     add(moving[w], int(w));

@@ -405,6 +405,14 @@ class Settler {
 
 }  // namespace
 
-Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal) { return Settler(water, bodies, goal).run(); }
+Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal) {
+  // A wall that moves at the start throws back those that are moved across it: no motion of the scene's.
+  const WallLoads impulses = water.walls.impulses();
+  const Exchange exchange = water.exchange;
+  const Settled settled = Settler(water, bodies, goal).run();
+  water.walls.set_impulses(impulses);
+  water.exchange = exchange;
+  return settled;
+}
 
 }  // namespace undex::sph

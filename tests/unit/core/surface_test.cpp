@@ -48,7 +48,7 @@ TEST(WetSurface, ASegmentOfTheMeridianIsAFace) {
   const auto normal = node_normals(faces, node, {true, false, false});
   EXPECT_LT((normal[1] - outward).norm(), 1e-14);
   EXPECT_LT((normal[0] - Vec3(0.0, -1.0, 0.0)).norm(), 1e-14) << "on the axis";
-  const auto area = nodal_areas(faces, node, false);
+  const auto area = nodal_areas(faces, node);
   const double mantle = std::numbers::pi * 0.03 * 0.05;
   EXPECT_NEAR(area[0] + area[1], mantle, 1e-15);
   EXPECT_NEAR(area[0], mantle / 3.0, 1e-15);

@@ -462,7 +462,7 @@ Settings free_body(bool solid, ElementKind kind = ElementKind::hexahedron) {
 Nodes kicks(const Structure& body, double size) {
   const WetSurface& surface = body.wet_surface();
   Nodes impulse(surface.nodes.size());
-  const std::vector<double> area = nodal_areas(surface.faces, surface.nodes, true);
+  const std::vector<double> area = nodal_areas(surface.faces, surface.nodes);
   for (std::size_t i = 0; i < impulse.size(); ++i) {
     const double r = surface.nodes[i][0];
     impulse[i] = size * area[i] * Vec3(r > 0.0 ? std::sin(1.0 + 3.0 * i) : 0.0, std::cos(2.0 * i) + 0.3, 0.0);

@@ -55,7 +55,6 @@ TEST(Obstacles, MistakesHaveRemedies) {
       {water + with(ball, "0.06", "60"), "its subtractions leave nothing of it"},
       {water + "[[obstacles]]\nname = \"rod\"\nshape = {type = \"box\", low = [-60, 0, 0], high = [0, 0.4, 0.4]}\n",
        "is it in millimetres?"},
-      {water + with(ball, "0.06", "0.02"), "with water on both sides"},
       {water + ball + "[start]\nkind = \"plane_wave\"\naxis = \"z\"\nfront = 0.2\npeak = 1e6\ndecay = 1e-4\n",
        "behind start.front"},
       {water + ball + "motion = \"free\"\ndensity = 500\nvelocity = [1, 0, 0]\n[symmetry]\nplanes = [\"x\"]\n", ""},
