@@ -118,10 +118,11 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
     const Vec3 low = x - Vec3::Constant(radius), high = x + Vec3::Constant(radius);
     for_each_in_cells(cells.view(), low.data(), high.data(), [&](std::uint32_t s) { visit(cells.order()[s]); });
   };
-  // Of two that meet through a wall one is an image, half a spacing less than a reach behind its mirror, and the other stands half
-  // a spacing before the wall's other face.
+  // Of two that meet through a wall one is an image, half a spacing less than a reach behind its mirror; the other stands half a
+  // spacing before the wall's other face.
   const double through = 2.0 * reach - spacing, beside = reach + margin;
-  // A wall is thin where a face has another behind it that looks the other way, or is beside an edge that the wall goes on behind.
+  // A wall is thin where a face has another behind it that looks the other way, or is beside an edge behind which the wall goes
+  // on.
   const int faces = int(seats.size());
   std::vector<char> hides(walls.size(), 0);
 #pragma omp parallel for schedule(dynamic, 64)
