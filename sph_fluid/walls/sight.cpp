@@ -81,7 +81,6 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
   plain_.clear();
   sheet_.clear();
   open_.clear();
-  first_sheet_.clear();
   thin_ = false;
   thin_wall_.clear();
 
@@ -97,12 +96,10 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
     const MirrorWall& wall = walls[w];
     looked_at_.push_back(wall.position);
     plain_.emplace_back(wall.faces.size(), true);
-    first_sheet_.push_back(sheet_count);
     sheet_.emplace_back();
     open_.emplace_back();
-    sheet_count += sheets[w].count();
     for (std::size_t f = 0; f < wall.faces.size(); ++f) {
-      sheet_[w].push_back(first_sheet_[w] + sheets[w].sheet(int(f)));
+      sheet_[w].push_back(sheet_count + sheets[w].sheet(int(f)));
       open_[w].push_back(sheets[w].open(int(f)));
       if (wall.radiates()) continue;
       seats.push_back({int(w), int(f)});
@@ -110,6 +107,7 @@ void Sight::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>
       largest = std::max(largest, balls.back().radius);
       for (int a = 0; a < 3; ++a) place[a].push_back(balls.back().middle[a]);
     }
+    sheet_count += sheets[w].count();
   }
   if (seats.empty()) return;
   CellList cells;
@@ -478,6 +476,7 @@ float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuest
   if (images && images_[j].first < images_[j].last) return float(mirrored_share(from, at, j, axes, about(), way));
   follow(from, at, about(), way);
   if (!dummies) return float(way.free_share());
+  if (j >= behind_surface_.size() || behind_surface_[j] == 0) return way.is_free() ? 1.0f : 0.0f;
   const WallRow& row = in.wall[j];
   return way.enters(mirrored(Vec3(row.nx, row.ny, row.nz), axes)) ? 1.0f : 0.0f;
 }

@@ -3,7 +3,8 @@
 // - two particles, if the straight way between them meets no wall;
 // - a particle and an image, if the way goes through the mirror whose image it is, meets no wall before it, and the way from
 //   there to the particle shown is free too;
-// - a particle and a dummy, if the first wall on the way is the one that the dummy stands behind.
+// - a particle and a dummy, if the first wall on the way is the one that the dummy stands behind (of a container: if the way is
+//   free).
 // In every direction a particle then sees either fluid or a mirror: at an edge real particles end where images begin, and a way
 // through the edge itself counts one half in either. Mirrors in which thin walls end show these walls likewise: their faces have
 // copies across symmetry planes and containers' faces.
@@ -49,6 +50,9 @@ class Sight {
   void see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
            int dimension, std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
            std::span<const SeenImage::Glass> glasses);
+
+  /// Which dummies stand behind a wall's surface; the others are those of containers, which hide nothing.
+  void see_dummies(std::span<const char> behind_surface) { behind_surface_ = behind_surface; }
 
   /// Hands it to a loop over pairs.
   void describe(PairInput& in) const;
@@ -117,7 +121,6 @@ class Sight {
   std::vector<bool> thin_wall_;               // per wall: is it thin somewhere?
   std::vector<std::vector<Vec3>> looked_at_;  // where the walls' nodes were [m]
   std::vector<std::vector<char>> plain_;      // per wall and face: no open edge and no other wall within reach
-  std::vector<int> first_sheet_;              // per wall
   std::vector<std::vector<int>> sheet_;       // per wall and face, as the next
   std::vector<std::vector<unsigned>> open_;
 
@@ -128,6 +131,7 @@ class Sight {
   std::vector<std::uint32_t> start_, member_;
   std::vector<Code> particle_, image_;
   std::span<const SeenImage> images_;
+  std::span<const char> behind_surface_;
   std::span<const SeenImage::Glass> glasses_;
 };
 

@@ -76,7 +76,8 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
   if (!sight_.empty()) see_past_walls(settings, faces, walls, particles, ranges, reach);
 }
 
-void WallImages::see_linings(const std::vector<LinedWall>& walls) {
+void WallImages::see_linings(const std::vector<LinedWall>& walls, std::span<const char> behind_surface) {
+  sight_.see_dummies(behind_surface);
   std::size_t count = 0;
   for (const LinedWall& wall : walls) {
     if (wall.faces.empty()) continue;

@@ -35,8 +35,8 @@ struct WallShare {
 
 class WallImages {
  public:
-  /// The surfaces of lined walls, which hide as mirrors do. Before build().
-  void see_linings(const std::vector<LinedWall>& walls);
+  /// The surfaces of lined walls, which hide as mirrors do, and which dummies stand behind one. Before build().
+  void see_linings(const std::vector<LinedWall>& walls, std::span<const char> behind_surface);
 
   /// Finds the images of ranges of particles, and who sees whom past thin walls; `reach` [m] of pairs. With the feet in hand
   /// `on_feet`, where there is one, may set the walls' velocities.

@@ -58,6 +58,7 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
   origin_.resize(n);
   for (auto& axis : place_) axis.resize(n);
   rows_.resize(n);
+  behind_surface_.resize(n);
   force_.resize(moving.empty() ? 0 : n);
   for (std::uint32_t k = 0; k < n; ++k) {
     const Origin& o = origin_[k] = origin[cells_.order()[k]];
@@ -66,6 +67,7 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
     Vec3 v = wall.velocity[o.point], normal = wall.normal[o.point];
     if (o.mirrored >= 0) v = mirrors_[o.mirrored] * v, normal = mirrors_[o.mirrored] * normal;
     for (int a = 0; a < 3; ++a) place_[a][k] = x[a];
+    behind_surface_[k] = !wall.faces.empty();
     rows_[k] = {.vx = v[0],
                 .vy = v[1],
                 .vz = v[2],
@@ -119,8 +121,8 @@ bool WallLining::reaches(const Vec3& low, const Vec3& high, double reach) const 
 }
 
 std::size_t WallLining::memory_bytes() const {
-  return origin_.capacity() * (sizeof(Origin) + 3 * sizeof(double)) + rows_.capacity() * sizeof(WallRow) +
-         force_.capacity() * sizeof(ForceRow) + cells_.memory_bytes();
+  return behind_surface_.capacity() + origin_.capacity() * (sizeof(Origin) + 3 * sizeof(double)) +
+         rows_.capacity() * sizeof(WallRow) + force_.capacity() * sizeof(ForceRow) + cells_.memory_bytes();
 }
 
 }  // namespace undex::sph

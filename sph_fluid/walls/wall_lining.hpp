@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sph_fluid/pairs/cell_list.hpp"
@@ -23,6 +24,8 @@ class WallLining {
   bool packed() const { return packed_; }
 
   void describe(PairInput& in) const;
+  /// Is a particle behind the surface of its wall (LinedWall::faces)? In the rows' order.
+  std::span<const char> behind_surface() const { return behind_surface_; }
   /// What pairs add to; null where no lined wall moves.
   ForceRow* forces() { return force_.empty() ? nullptr : force_.data(); }
   void clear_forces();
@@ -48,6 +51,7 @@ class WallLining {
   std::vector<Mat3> mirrors_;
   std::vector<double> place_[3];  // sorted by cell, as the next two
   std::vector<WallRow> rows_;
+  std::vector<char> behind_surface_;
   std::vector<ForceRow> force_;
   CellList cells_;
   bool packed_ = false;

@@ -221,7 +221,7 @@ void Evaluation::find_images(ParticleSet& set, const Ahead& ahead) {
       std::any_of(walls_.lined.begin(), walls_.lined.end(), [](const LinedWall& wall) { return !wall.faces.empty(); });
   if (walls_.mirrors.empty() && slip_faces_.empty() && !lined) return;
   const auto timer = timers_.measure("walls");
-  if (lined) set.images.see_linings(walls_.lined);
+  if (lined) set.images.see_linings(walls_.lined, lining_.behind_surface());
   const std::vector<ParticleRange> ranges = ranges_of(set.groups, loops_.support, slip_faces_, walls_.mirrors);
   // Substeps see the faces as they go from one whole step to the next.
   std::function<void(std::span<const WallFoot>)> radiate;
