@@ -195,17 +195,19 @@ Sight::Code Sight::code_of(int wall, int face) const {
   return plain_[wall][face] ? sheet : Code(sheet | edge);
 }
 
-void Sight::see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
-                int dimension, std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+void Sight::see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const Settings& settings,
+                std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
                 std::span<const SeenImage::Glass> glasses) {
   forget();
   if (!thin_) return;
   reach_ = reach;
+  dimension_ = settings.dimension;
+  if (!lined_) lined_ = lined_faces(settings);
   for (std::size_t w = 0; w < walls.size(); ++w)
     for (std::size_t f = 0; f < walls[w].faces.size(); ++f)
       if (thin_wall_[w])
-        add_face(corners_of(walls[w].faces[f], walls[w].position), sheet_[w][f], open_[w][f], faces, symmetry, dimension);
-  sort_pieces(dimension);
+        add_face(corners_of(walls[w].faces[f], walls[w].position), sheet_[w][f], open_[w][f], faces, settings.symmetry.axis);
+  sort_pieces();
   const auto with = [](Code a, Code b) -> Code {
     if (a == 0 || b == 0) return Code(a | b);
     const Code ends = Code((a | b) & edge);
@@ -226,7 +228,7 @@ void Sight::see(double reach, const std::vector<MirrorWall>& walls, const SlipFa
 }
 
 void Sight::add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces,
-                     const std::array<bool, 3>& symmetry, int dimension) {
+                     const std::array<bool, 3>& symmetry) {
   std::vector<std::array<Vec3, 4>> copies{corner};
   std::vector<bool> turned{false};
   const auto mirror_all = [&](auto image) {
@@ -252,7 +254,7 @@ void Sight::add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const
   for (const SlipFaces::Round& wall : faces.round)
     mirror_all([&](std::array<Vec3, 4> x) -> std::optional<std::array<Vec3, 4>> {
       for (Vec3& c : x) {
-        const auto image = image_in(wall, c, 2.0 * reach_, dimension);
+        const auto image = image_in(wall, c, 2.0 * reach_, dimension_);
         if (!image) return std::nullopt;
         c = image->place;
       }
@@ -298,7 +300,7 @@ Bounds box_of(const Piece& t) {
 
 }  // namespace
 
-void Sight::sort_pieces(int dimension) {
+void Sight::sort_pieces() {
   box_ = {};
   for (const Piece& t : pieces_) box_.include(box_of(t));
   constexpr double most = 1 << 18;
@@ -306,7 +308,7 @@ void Sight::sort_pieces(int dimension) {
   for (;; cell_ *= 2.0) {
     double cells = 1.0;
     for (int a = 0; a < 3; ++a) {
-      const double wide = a < dimension ? (box_.high[a] - box_.low[a]) / cell_ : 0.0;
+      const double wide = a < dimension_ ? (box_.high[a] - box_.low[a]) / cell_ : 0.0;
       count_[a] = wide < most ? 1 + int(wide) : int(most);
       cells *= count_[a];
     }
@@ -373,7 +375,7 @@ void Sight::follow(const Vec3& a, const Vec3& b, std::span<const Piece> pieces, 
     const double u = (vv * xu - uv * xv) * inverse, v = (uu * xv - uv * xu) * inverse;
     if (u < -rim || v < -rim || u + v > 1.0 + rim) continue;
     if (std::abs(before) < nearest && before >= 0.0) continue;
-    way.crossings.push_back({at, before < 0.0, t.normal, t.sheet});
+    way.crossings.push_back({at, before < 0.0, t.normal, t.offset, t.sheet});
   }
   std::sort(way.crossings.begin(), way.crossings.end(), [](const Crossing& p, const Crossing& q) { return p.at < q.at; });
   // On the line between two triangles both have it.
@@ -476,9 +478,17 @@ float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuest
   if (images && images_[j].first < images_[j].last) return float(mirrored_share(from, at, j, axes, about(), way));
   follow(from, at, about(), way);
   if (!dummies) return float(way.free_share());
-  if (j >= behind_surface_.size() || behind_surface_[j] == 0) return way.is_free() ? 1.0f : 0.0f;
+  if (j >= behind_surface_.size() || behind_surface_[j] == 0) return sees_container(at, way) ? 1.0f : 0.0f;
   const WallRow& row = in.wall[j];
   return way.enters(mirrored(Vec3(row.nx, row.ny, row.nz), axes)) ? 1.0f : 0.0f;
+}
+
+bool Sight::sees_container(const Vec3& at, const Way& way) const {
+  if (way.is_free()) return true;
+  const auto first = std::find_if(way.crossings.begin(), way.crossings.end(), [](const Crossing& c) { return c.entering; });
+  if (first == way.crossings.end()) return false;
+  const Vec3 shown = at - 2.0 * (first->normal.dot(at) - first->offset) * first->normal;
+  return lined_->end_before(shown, reach_, dimension_);
 }
 
 double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const {

@@ -3,8 +3,9 @@
 // - two particles, if the straight way between them meets no wall;
 // - a particle and an image, if the way goes through the mirror whose image it is, meets no wall before it, and the way from
 //   there to the particle shown is free too;
-// - a particle and a dummy, if the first wall on the way is the one that the dummy stands behind (of a container: if the way is
-//   free).
+// - a particle and a dummy of a wall, if the first wall on the way is the one that the dummy stands behind;
+// - a particle and a dummy of a container, if the way is free, or if what the first wall on it shows in the dummy's place stands
+//   behind the container too: there no image is.
 // In every direction a particle then sees either fluid or a mirror: at an edge real particles end where images begin, and a way
 // through the edge itself counts one half in either. Mirrors in which thin walls end show these walls likewise: their faces have
 // copies across symmetry planes and containers' faces.
@@ -15,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,8 +49,8 @@ class Sight {
   bool is_thin(int wall) const { return thin_ && thin_wall_[wall]; }
 
   /// Walls, particles with their feet, and images where they are now; arrays by particle and by image; `reach` [m] of all pairs.
-  void see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
-           int dimension, std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
+  void see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const Settings& settings,
+           std::span<const WallFoot> feet, std::size_t particles, std::span<const SeenImage> images,
            std::span<const SeenImage::Glass> glasses);
 
   /// Which dummies stand behind a wall's surface; the others are those of containers, which hide nothing.
@@ -76,6 +78,7 @@ class Sight {
     double at;  // share of the way
     bool entering;
     Vec3 normal;
+    double offset;  // of the wall's plane
     int sheet;
   };
   struct Graze {
@@ -100,9 +103,9 @@ class Sight {
   static constexpr Code many = 0x7fff, edge = 0x8000;
 
   Code code_of(int wall, int face) const;
-  void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces, const std::array<bool, 3>& symmetry,
-                int dimension);
-  void sort_pieces(int dimension);
+  void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces,
+                const std::array<bool, 3>& symmetry);
+  void sort_pieces();
   /// Calls visit(piece) once for each that may lie in the box.
   template <class Visit>
   void for_each_near(const Bounds& box, Visit visit) const;
@@ -111,6 +114,8 @@ class Sight {
   template <class Pieces>
   float share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j, const PairInput& in,
               Pieces about, Way& way) const;
+  /// The same of a dummy behind a container.
+  bool sees_container(const Vec3& at, const Way& way) const;
   /// The same of an image in a thin wall.
   double mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const;
   static void weigh(const void* self, const PairInput& in, const SightQuestion& question);
@@ -130,6 +135,8 @@ class Sight {
   int count_[3] = {1, 1, 1};
   std::vector<std::uint32_t> start_, member_;
   std::vector<Code> particle_, image_;
+  std::optional<SlipFaces> lined_;  // of containers, with dummies behind them
+  int dimension_ = 3;
   std::span<const SeenImage> images_;
   std::span<const char> behind_surface_;
   std::span<const SeenImage::Glass> glasses_;

@@ -62,21 +62,20 @@ Bounds beyond_radiating(const Wall& wall, Bounds box) {
 /// In how many directions the wall is curved, as a scene of that dimension sees it.
 int curved(const SlipFaces::Round& wall, int dimension) { return dimension - 1 - (wall.axis >= 0 && wall.axis < dimension); }
 
-}  // namespace
-
-SlipFaces slip_faces(const Settings& settings) {
+/// The faces whose condition is one of those that are wanted.
+SlipFaces faces_of(const Settings& settings, bool free_slip, bool no_slip) {
   SlipFaces result;
-  if (!mirrors_fluid(settings.numerics.scheme)) return result;
   for (const Wall& wall : settings.walls) {
-    const auto slips = [&](const std::string& face) {
+    const auto wanted = [&](const std::string& face) {
       const auto found = wall.faces.find(face);
-      return found == wall.faces.end() || found->second == FaceCondition::free_slip;
+      if (found == wall.faces.end() || found->second == FaceCondition::free_slip) return free_slip;
+      return no_slip && found->second == FaceCondition::no_slip;
     };
     const Bounds box = bounds(wall.container, settings.dimension), window = beyond_radiating(wall, box);
     const auto is_cut = [&](int axis) { return settings.symmetry.axis[axis] && box.low[axis] <= 0.0; };
     const auto add = [&](int axis, const std::string& low, const std::string& high) {
       // A symmetry plane stands in for what it cuts off.
-      const bool cut = is_cut(axis), with_low = slips(low) && !cut, with_high = slips(high);
+      const bool cut = is_cut(axis), with_low = wanted(low) && !cut, with_high = wanted(high);
       if (!with_low && !with_high) return;
       const double low_at = cut ? 0.0 : with_low ? window.low[axis] : -1e300;
       const double high_at = with_high ? window.high[axis] : 1e300;
@@ -87,15 +86,16 @@ SlipFaces slip_faces(const Settings& settings) {
       const bool sides = settings.dimension > 1 || !ends;
       const std::size_t before = result.plane.size();
       if (ends) add(cone.axis, "low", "high");
-      if (!sides || !slips("side")) return;
+      if (!sides || !wanted("side")) return;
       result.round.push_back(side_of(cone, ends));
       SlipFaces::Round& side = result.round.back();
       if (ends) side.low = window.low[cone.axis], side.high = window.high[cone.axis];
       if (side.sine == 0.0 || result.plane.size() == before) return;
       side.ends = int(before);
       result.plane.back().of_cone = true;
-      if (slips("low") && !is_cut(cone.axis)) side.edges.push_back({{cone.low_radius, cone.low}, {side.sine + 1.0, side.cosine}});
-      if (slips("high")) side.edges.push_back({{cone.high_radius, cone.high}, {1.0 - side.sine, -side.cosine}});
+      if (wanted("low") && !is_cut(cone.axis))
+        side.edges.push_back({{cone.low_radius, cone.low}, {side.sine + 1.0, side.cosine}});
+      if (wanted("high")) side.edges.push_back({{cone.high_radius, cone.high}, {1.0 - side.sine, -side.cosine}});
     };
     if (const auto* cylinder = std::get_if<Cylinder>(&wall.container)) {
       add_cone({.axis = cylinder->axis,
@@ -107,7 +107,7 @@ SlipFaces slip_faces(const Settings& settings) {
     } else if (const auto* cone = std::get_if<Cone>(&wall.container)) {
       add_cone(*cone);
     } else if (const auto* sphere = std::get_if<Sphere>(&wall.container)) {
-      if (slips("side")) result.round.push_back({.center = sphere->center, .radius = sphere->radius});
+      if (wanted("side")) result.round.push_back({.center = sphere->center, .radius = sphere->radius});
     } else {
       for (int a = 0; a < settings.dimension; ++a) {
         const std::string name(1, "xyz"[a]);
@@ -117,6 +117,14 @@ SlipFaces slip_faces(const Settings& settings) {
   }
   return result;
 }
+
+}  // namespace
+
+SlipFaces slip_faces(const Settings& settings) { return faces_of(settings, mirrors_fluid(settings.numerics.scheme), false); }
+
+SlipFaces lined_faces(const Settings& settings) { return faces_of(settings, !mirrors_fluid(settings.numerics.scheme), true); }
+
+SlipFaces fixed_faces(const Settings& settings) { return faces_of(settings, true, true); }
 
 double clearance(const SlipFaces& faces, const Bounds& box) {
   double least = 1e300;
@@ -147,6 +155,12 @@ bool SlipFaces::Round::is_beside(const Vec3& x, double beyond) const {
 bool SlipFaces::Round::shows(const Vec3& x) const {
   const Eigen::Vector2d place(away(x).norm(), axis < 0 ? 0.0 : x[axis]);
   return std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) { return (place - edge.at).dot(edge.side) > 0.0; });
+}
+
+bool SlipFaces::end_before(const Vec3& x, double far, int dimension) const {
+  return std::any_of(plane.begin(), plane.end(),
+                     [&](const Pair& pair) { return crossing(pair, x, far, dimension).has_value(); }) ||
+         std::any_of(round.begin(), round.end(), [&](const Round& wall) { return crossing(wall, x, far).has_value(); });
 }
 
 bool SlipFaces::hold(const Vec3& a, const Vec3& b, double tolerance) const {

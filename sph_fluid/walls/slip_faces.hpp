@@ -1,5 +1,5 @@
-// The free-slip faces of the scene's containers: where particles have images in them, and where those that have crossed one are
-// put back.
+// The faces of the scene's containers: where particles have images in the slip faces, and where those that have crossed one are
+// put back; where dummies stand behind the others; which of them hold the edges of other walls.
 #pragma once
 
 #include <optional>
@@ -47,10 +47,17 @@ struct SlipFaces {
   std::vector<Pair> plane;
 
   bool empty() const { return round.empty() && plane.empty(); }
+  /// Is x at most `far` [m] beyond one of the faces?
+  bool end_before(const Vec3& x, double far, int dimension) const;
   /// Do both points lie in one of the faces, within `tolerance` [m]?
   bool hold(const Vec3& a, const Vec3& b, double tolerance) const;
 };
+/// Those that the fluid is mirrored in.
 SlipFaces slip_faces(const Settings& settings);
+/// Those that dummies stand behind.
+SlipFaces lined_faces(const Settings& settings);
+/// Both.
+SlipFaces fixed_faces(const Settings& settings);
 
 /// Does the scheme mirror the fluid in slip walls? (The published one lines them with dummy particles.)
 constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::paper; }

@@ -39,8 +39,8 @@ double reach_of_liquid(const Settings& settings) {
   return kernel_support(settings.numerics.kernel) * smoothing_length(settings, spacing);
 }
 
-Sheets sheets_of(const MirrorWall& wall, const Settings& settings, const SlipFaces& faces) {
-  return {wall.faces, wall.position, settings.symmetry.axis, faces, 1e-3 * settings.lattice.spacing};
+Sheets sheets_of(const MirrorWall& wall, const Settings& settings) {
+  return {wall.faces, wall.position, settings.symmetry.axis, fixed_faces(settings), 1e-3 * settings.lattice.spacing};
 }
 
 PointLoads unloaded(const std::vector<MirrorWall>& walls) {
@@ -54,9 +54,9 @@ PointLoads unloaded(const std::vector<MirrorWall>& walls) {
 void WallImages::build(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
                        const Particles& particles, std::span<const ParticleRange> ranges, double reach,
                        const std::function<void(std::span<const WallFoot>)>& on_feet) {
-  see_first_places(settings, faces, walls);
+  see_first_places(settings, walls);
   SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis, settings.lattice.spacing);
-  look(settings, faces, walls);
+  look(settings, walls);
   std::function<unsigned(int, int)> open;
   if (!sight_.empty()) open = [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); };
   feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing, open);
@@ -88,7 +88,7 @@ void WallImages::see_linings(const std::vector<LinedWall>& walls, std::span<cons
   }
 }
 
-void WallImages::look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls) {
+void WallImages::look(const Settings& settings, const std::vector<MirrorWall>& walls) {
   const double reach = reach_of_liquid(settings);
   if (linings_.empty()) {
     sight_.look(walls, sheets_, reach, settings.lattice.spacing);
@@ -96,7 +96,7 @@ void WallImages::look(const Settings& settings, const SlipFaces& faces, const st
   }
   while (lining_sheets_.size() < linings_.size()) {
     const MirrorWall& wall = linings_[lining_sheets_.size()];
-    lining_sheets_.push_back(sheets_of(wall, settings, faces));
+    lining_sheets_.push_back(sheets_of(wall, settings));
   }
   sight_.look(joined(walls, linings_), joined(sheets_, lining_sheets_), reach, settings.lattice.spacing);
 }
@@ -105,7 +105,7 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                                 const Particles& particles, std::span<const ParticleRange> ranges, double reach) {
   find_shown(particles);
   if (linings_.empty()) {
-    sight_.see(reach, walls, faces, settings.symmetry.axis, settings.dimension, feet_, particles.size(), shown_, glasses_);
+    sight_.see(reach, walls, faces, settings, feet_, particles.size(), shown_, glasses_);
     return;
   }
   const std::vector<Footprint> alone = [&] {
@@ -122,8 +122,7 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
                 [&](int wall, int face) { return open_edges(first + wall, face, lining_sheets_[wall]); });
   for (WallFoot& foot : feet) foot.wall += first;
   feet.insert(feet.end(), feet_.begin(), feet_.end());
-  sight_.see(reach, joined(walls, linings_), faces, settings.symmetry.axis, settings.dimension, feet, particles.size(), shown_,
-             glasses_);
+  sight_.see(reach, joined(walls, linings_), faces, settings, feet, particles.size(), shown_, glasses_);
 }
 
 unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const {
@@ -157,14 +156,14 @@ void WallImages::find_shown(const Particles& particles) {
   }
 }
 
-void WallImages::see_first_places(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls) {
+void WallImages::see_first_places(const Settings& settings, const std::vector<MirrorWall>& walls) {
   while (footprints_.size() < walls.size()) {
     const MirrorWall& wall = walls[footprints_.size()];
     const double width = smoothing_length(settings, settings.lattice.spacing);
     if (wall.radiates()) footprints_.emplace_back(wall.position.size());
     else if (wall.rigid) footprints_.emplace_back();
     else footprints_.emplace_back(wall.faces, wall.position, width, settings.symmetry.axis, settings.axisymmetric);
-    sheets_.push_back(wall.radiates() ? Sheets() : sheets_of(wall, settings, faces));
+    sheets_.push_back(wall.radiates() ? Sheets() : sheets_of(wall, settings));
   }
 }
 

@@ -33,7 +33,7 @@ MirrorWall plate(const Vec3& low, const Vec3& high, int cells, bool end) {
 constexpr double dx = 0.05;
 
 /// Water below a plate that spans its duct and above it, under pressures of their own.
-Settings two_waters(double thickness, double below, double above) {
+Settings two_waters(double thickness, double below, double above, FaceCondition condition = FaceCondition::free_slip) {
   Settings settings;
   settings.lattice.spacing = dx;
   settings.lattice.fit = "below";
@@ -44,7 +44,7 @@ Settings two_waters(double thickness, double below, double above) {
                      body("above", box(Vec3(-wide, 0, thickness), Vec3(wide, wide, high)), "water-tait")};
   settings.bodies[0].pressure = below;
   settings.bodies[1].pressure = above;
-  settings.walls = {box_wall(Vec3(-wide, 0, -0.5), Vec3(wide, wide, high))};
+  settings.walls = {box_wall(Vec3(-wide, 0, -0.5), Vec3(wide, wide, high), condition)};
   return settings;
 }
 
@@ -52,28 +52,29 @@ Settings two_waters(double thickness, double below, double above) {
 TEST(Sight, NothingPassesAHeldPlate) {
   for (const SchemeName scheme : {SchemeName::riemann, SchemeName::riemann_corrected, SchemeName::monaghan})
     for (const Precision precision : {Precision::full, Precision::mixed})
-      for (const double spacings : {0.2, 1.0, 2.0, 4.0}) {
-        std::vector<double> pressure[2];
-        for (const int loaded : {0, 1}) {
-          Settings settings = two_waters(spacings * dx, loaded ? 1.1e9 : 1e9, 1e7);
-          settings.numerics.scheme = scheme;
-          settings.numerics.precision = precision;
-          Fluid fluid(settings);
-          fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(4 * dx, 4 * dx, spacings * dx), 3, false));
-          for (int k = 0; k < 20; ++k) fluid.step(1e-6);
-          const std::vector<double> id = fluid.field("id"), all = fluid.field("pressure"), place = fluid.field("position");
-          pressure[loaded].assign(id.size(), 0.0);
-          for (std::size_t i = 0; i < id.size(); ++i)
-            if (place[3 * i + 2] > 0.5 * spacings * dx) pressure[loaded][std::size_t(id[i])] = all[i];
+      for (const FaceCondition condition : {FaceCondition::free_slip, FaceCondition::no_slip})
+        for (const double spacings : {0.2, 1.0, 2.0, 4.0}) {
+          std::vector<double> pressure[2];
+          for (const int loaded : {0, 1}) {
+            Settings settings = two_waters(spacings * dx, loaded ? 1.1e9 : 1e9, 1e7, condition);
+            settings.numerics.scheme = scheme;
+            settings.numerics.precision = precision;
+            Fluid fluid(settings);
+            fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(4 * dx, 4 * dx, spacings * dx), 3, false));
+            for (int k = 0; k < 20; ++k) fluid.step(1e-6);
+            const std::vector<double> id = fluid.field("id"), all = fluid.field("pressure"), place = fluid.field("position");
+            pressure[loaded].assign(id.size(), 0.0);
+            for (std::size_t i = 0; i < id.size(); ++i)
+              if (place[3 * i + 2] > 0.5 * spacings * dx) pressure[loaded][std::size_t(id[i])] = all[i];
+          }
+          for (std::size_t i = 0; i < pressure[0].size(); ++i)
+            ASSERT_NEAR(pressure[1][i], pressure[0][i], precision == Precision::full ? 1e-2 : 1e2)
+                << int(scheme) << " " << spacings << " " << int(condition);
         }
-        for (std::size_t i = 0; i < pressure[0].size(); ++i)
-          ASSERT_NEAR(pressure[1][i], pressure[0][i], precision == Precision::full ? 1e-2 : 1e2)
-              << int(scheme) << " " << spacings;
-      }
 }
 
 /// A plate with an edge in a tank.
-Fluid tank(double spacings, double jitter, Vec3 speed) {
+Fluid tank(double spacings, double jitter, Vec3 speed, FaceCondition condition = FaceCondition::free_slip) {
   Settings settings;
   settings.lattice.spacing = dx;
   settings.lattice.jitter = jitter;
@@ -83,7 +84,7 @@ Fluid tank(double spacings, double jitter, Vec3 speed) {
   const Box solid{Vec3(-12 * dx, -8 * dx, 0), Vec3(2 * dx, 8 * dx, t)};
   settings.bodies = {body("water", Shape{all, {solid}}, "water-tait")};
   settings.bodies[0].pressure = 1e8;
-  settings.walls = {box_wall(all.low, all.high)};
+  settings.walls = {box_wall(all.low, all.high, condition)};
   settings.lattice.settle = false;
   Fluid fluid(settings);
   MirrorWall wall = plate(Vec3(-8 * dx, -4 * dx, 0), Vec3(2 * dx, 4 * dx, t), 4, true);
@@ -95,41 +96,43 @@ Fluid tank(double spacings, double jitter, Vec3 speed) {
 /// In every direction there is water or a mirror, and never both: water on a lattice that fits the plate is in equilibrium at the
 /// plate's edge, to 1e-4 of what it would feel beside nothing.
 TEST(Sight, WaterAtAnEdgeIsAtRest) {
-  for (const double spacings : {1.0, 2.0, 3.0, 6.0}) {
-    Fluid fluid = tank(spacings, 0.0, Vec3::Zero());
-    const double dt = fluid.step_limit().step;
-    fluid.step(dt);
-    double fastest = 0;
-    for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
-    EXPECT_LT(fastest, 1e-4 * 1e8 / (1000.0 * dx) * dt) << spacings;
-  }
+  for (const FaceCondition condition : {FaceCondition::free_slip, FaceCondition::no_slip})
+    for (const double spacings : {1.0, 2.0, 3.0, 6.0}) {
+      Fluid fluid = tank(spacings, 0.0, Vec3::Zero(), condition);
+      const double dt = fluid.step_limit().step;
+      fluid.step(dt);
+      double fastest = 0;
+      for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
+      EXPECT_LT(fastest, 1e-4 * 1e8 / (1000.0 * dx) * dt) << spacings << " " << int(condition);
+    }
 }
 
 /// A double bottom: three waters, that in the middle `gap` spacings thick, and two plates of one spacing. Each of them is at rest
 /// under its own pressure.
 TEST(Sight, WaterInADoubleBottomIsAtRest) {
-  for (const int gap : {1, 2, 3, 4}) {
-    Settings settings;
-    settings.lattice.spacing = dx;
-    settings.lattice.settle = false;
-    settings.numerics.threads = 1;
-    const double wide = 4 * dx, low = dx, high = (1 + gap) * dx;
-    settings.bodies = {body("below", box(Vec3(0, 0, -6 * dx), Vec3(wide, wide, 0)), "water-tait"),
-                       body("between", box(Vec3(0, 0, low), Vec3(wide, wide, high)), "water-tait"),
-                       body("above", box(Vec3(0, 0, high + dx), Vec3(wide, wide, high + 7 * dx)), "water-tait")};
-    settings.bodies[0].pressure = 1e8;
-    settings.bodies[1].pressure = 2e8;
-    settings.bodies[2].pressure = 3e8;
-    settings.walls = {box_wall(Vec3(0, 0, -6 * dx), Vec3(wide, wide, high + 7 * dx))};
-    Fluid fluid(settings);
-    fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(wide, wide, low), 3, false));
-    fluid.add_wall(plate(Vec3(0, 0, high), Vec3(wide, wide, high + dx), 3, false));
-    const double dt = fluid.step_limit().step;
-    fluid.step(dt);
-    double fastest = 0;
-    for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
-    EXPECT_LT(fastest, 1e-6 * 2e8 / (1000.0 * dx) * dt) << gap << " spacings";
-  }
+  for (const int gap : {1, 2, 3, 4})
+    for (const FaceCondition condition : {FaceCondition::free_slip, FaceCondition::no_slip}) {
+      Settings settings;
+      settings.lattice.spacing = dx;
+      settings.lattice.settle = false;
+      settings.numerics.threads = 1;
+      const double wide = 4 * dx, low = dx, high = (1 + gap) * dx;
+      settings.bodies = {body("below", box(Vec3(0, 0, -6 * dx), Vec3(wide, wide, 0)), "water-tait"),
+                         body("between", box(Vec3(0, 0, low), Vec3(wide, wide, high)), "water-tait"),
+                         body("above", box(Vec3(0, 0, high + dx), Vec3(wide, wide, high + 7 * dx)), "water-tait")};
+      settings.bodies[0].pressure = 1e8;
+      settings.bodies[1].pressure = 2e8;
+      settings.bodies[2].pressure = 3e8;
+      settings.walls = {box_wall(Vec3(0, 0, -6 * dx), Vec3(wide, wide, high + 7 * dx), condition)};
+      Fluid fluid(settings);
+      fluid.add_wall(plate(Vec3(0, 0, 0), Vec3(wide, wide, low), 3, false));
+      fluid.add_wall(plate(Vec3(0, 0, high), Vec3(wide, wide, high + dx), 3, false));
+      const double dt = fluid.step_limit().step;
+      fluid.step(dt);
+      double fastest = 0;
+      for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
+      EXPECT_LT(fastest, 1e-6 * 2e8 / (1000.0 * dx) * dt) << gap << " spacings " << int(condition);
+    }
 }
 
 /// What a moving plate gives and takes, edges included, is what the water takes and gives.
