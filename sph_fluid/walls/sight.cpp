@@ -492,21 +492,42 @@ bool Sight::sees_container(const Vec3& at, const Way& way) const {
 }
 
 double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const {
-  double share = 1.0;
-  for (std::uint32_t g = images_[j].first; g < images_[j].last; ++g) {
+  struct Mirror {
+    int sheet;
+    bool thick;
+    Vec3 normal, shown;
+  };
+  const auto mirror_of = [&](std::uint32_t g) -> Mirror {
     const SeenImage::Glass& glass = glasses_[g];
-    const Vec3 normal = mirrored(glass.normal, axes), shown = mirrored(glass.shown, axes);
-    const int sheet = sheet_[glass.wall][glass.face];
+    return {sheet_[glass.wall][glass.face], !is_thin(glass.wall), mirrored(glass.normal, axes), mirrored(glass.shown, axes)};
+  };
+  const std::uint32_t last = images_[j].last;
+  Mirror next = mirror_of(images_[j].first);
+  double share = 1.0;
+  for (std::uint32_t g = images_[j].first; g < last; ++g) {
+    Mirror mirror = next;
+    if (g + 1 < last) next = mirror_of(g + 1);
     follow(from, at, pieces, way);
-    const bool thick = !is_thin(glass.wall), through = way.enters(normal);
-    const double grazed = way.graze(sheet);
-    share = std::min(share, through ? 1.0 - grazed : thick ? way.free_share() : std::min(grazed, way.beside(sheet)));
+    bool through = way.enters(mirror.normal);
+    if (!through && g + 1 < last && way.enters(next.normal) && std::abs(mirror.normal.dot(next.normal)) < alike) {
+      // Where walls meet at a right angle the image is the same in either order.
+      const Vec3 object = next.shown;
+      const double across = (at - 0.5 * (mirror.shown + object)).dot(next.normal);
+      std::swap(mirror, next);
+      mirror.shown = at - 2.0 * across * mirror.normal;
+      next.shown = object;
+      through = true;
+    }
+    const double grazed = way.graze(mirror.sheet);
+    share = std::min(share, through        ? 1.0 - grazed
+                            : mirror.thick ? way.free_share()
+                                           : std::min(grazed, way.beside(mirror.sheet)));
     if (share <= 0.0) return 0.0;
     // Beside an edge the mirror's plane lies halfway between the image and what it shows.
-    const double depth = (at - from).dot(normal), before = (0.5 * (at + shown) - from).dot(normal);
+    const double depth = (at - from).dot(mirror.normal), before = (0.5 * (at + mirror.shown) - from).dot(mirror.normal);
     const double reached = through ? way.crossings[0].at : depth > 0.0 ? std::clamp(before / depth, 0.0, 1.0) : 0.0;
-    from += reached * (at - from) - 1e-6 * spacing_ * normal;
-    at = shown;
+    from += (reached - 1e-6) * (at - from) - 1e-6 * spacing_ * mirror.normal;
+    at = mirror.shown;
   }
   follow(from, at, pieces, way);
   return way.is_free() ? share : 0.0;
