@@ -24,8 +24,10 @@
 #include "sph_fluid/pairs/pair_data.hpp"
 #include "sph_fluid/walls/mirror_feet.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
+#include "sph_fluid/walls/screens.hpp"
 #include "sph_fluid/walls/sheets.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
+#include "sph_fluid/walls/thin_walls.hpp"
 
 namespace undex::sph {
 
@@ -44,9 +46,11 @@ struct SeenImage {
 class Sight {
  public:
   /// Finds the thin walls where walls have moved since they were sought; `reach` [m] of pairs of liquid.
-  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing);
-  bool empty() const { return !thin_; }
-  bool is_thin(int wall) const { return thin_ && thin_wall_[wall]; }
+  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing) {
+    thin_.look(walls, sheets, reach, spacing);
+  }
+  bool empty() const { return thin_.empty(); }
+  bool is_thin(int wall) const { return thin_.contain(wall); }
 
   /// Walls, particles with their feet, and images where they are now; arrays by particle and by image; `reach` [m] of all pairs.
   void see(double reach, const std::vector<MirrorWall>& walls, const SlipFaces& faces, const Settings& settings,
@@ -63,83 +67,35 @@ class Sight {
   bool sees(const Vec3& a, const Vec3& b) const;
 
   void forget();
+  void visit_state(StateVisitor& state) { thin_.visit_state(state); }
   std::size_t memory_bytes() const;
 
  private:
-  /// Half a face, or an open edge: `across` and the normal are zero.
-  struct Piece {
-    Vec3 corner, along, across, normal;
-    int sheet;
-    double offset = 0;  // of its plane
-
-    bool is_edge() const { return across.isZero(); }
-  };
-  struct Crossing {
-    double at;  // share of the way
-    bool entering;
-    Vec3 normal;
-    double offset;  // of the wall's plane
-    int sheet;
-  };
-  struct Graze {
-    int sheet;
-    double share;  // 1/2 through the edge itself, 0 half a width beside it
-  };
-  /// What a straight way meets.
-  struct Way {
-    std::vector<Crossing> crossings;  // in order
-    std::vector<Graze> grazed;
-
-    bool is_free() const;
-    /// Is the first wall one that looks as `normal` does?
-    bool enters(const Vec3& normal) const;
-    /// Of the open edges of a sheet, or of all (-1).
-    double graze(int sheet) const;
-    double beside(int but) const;
-    double free_share() const;
-  };
   /// A particle's or an image's sheet: 0 is none.
   using Code = std::uint16_t;
   static constexpr Code many = 0x7fff, edge = 0x8000;
 
   Code code_of(int wall, int face) const;
-  void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces,
-                const std::array<bool, 3>& symmetry);
-  void sort_pieces();
-  /// Calls visit(piece) once for each that may lie in the box.
-  template <class Visit>
-  void for_each_near(const Bounds& box, Visit visit) const;
-  void follow(const Vec3& a, const Vec3& b, std::span<const Piece> pieces, Way& way) const;
-  /// How much a particle sees of candidate j.
-  template <class Pieces>
-  float share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j, const PairInput& in,
-              Pieces about, Way& way) const;
-  /// The same of a dummy behind a container.
-  bool sees_container(const Vec3& at, const Way& way) const;
-  /// The same of an image in a thin wall.
-  double mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, std::span<const Piece> pieces, Way& way) const;
   static void weigh(const void* self, const PairInput& in, const SightQuestion& question);
   void answer(const PairInput& in, const SightQuestion& question) const;
+  /// How much a particle sees of candidate j.
+  template <class About>
+  float share(const Vec3& from, Code mine, const Vec3& at, const SightQuestion& question, std::uint32_t j, const PairInput& in,
+              About about, Way& way) const;
+  /// The same of a dummy behind a container.
+  bool sees_container(const Vec3& at, const Way& way) const;
+  /// The same of an image in thin walls.
+  double mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes, const Screens::Near& near, Way& way) const;
 
+  ThinWalls thin_;
+  Screens screens_;
   double reach_ = 0, spacing_ = 0;
-  bool thin_ = false;
-  std::vector<bool> thin_wall_;               // per wall: is it thin somewhere?
-  std::vector<std::vector<Vec3>> looked_at_;  // where the walls' nodes were [m]
-  std::vector<std::vector<char>> plain_;      // per wall and face: no open edge and no other wall within reach
-  std::vector<std::vector<int>> sheet_;       // per wall and face, as the next
-  std::vector<std::vector<unsigned>> open_;
-
-  std::vector<Piece> pieces_;
-  Bounds box_;
-  double cell_ = 1;
-  int count_[3] = {1, 1, 1};
-  std::vector<std::uint32_t> start_, member_;
-  std::vector<Code> particle_, image_;
-  std::optional<SlipFaces> lined_;  // of containers, with dummies behind them
   int dimension_ = 3;
+  std::optional<SlipFaces> lined_;  // of containers, with dummies behind them
+  std::vector<Code> particle_, image_;
   std::span<const SeenImage> images_;
-  std::span<const char> behind_surface_;
   std::span<const SeenImage::Glass> glasses_;
+  std::span<const char> behind_surface_;
 };
 
 }  // namespace undex::sph

@@ -49,8 +49,11 @@ class WallImages {
   WallShare put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls, Particles& particles,
                      PointLoads& received) const;
 
-  /// The feet, by which the next step finds who has crossed a wall.
-  void visit_state(StateVisitor& state) { state("feet", feet_); }
+  /// The feet, by which the next step finds who has crossed a wall, and where thin walls were sought.
+  void visit_state(StateVisitor& state) {
+    state("feet", feet_);
+    state.part("sight", [&] { sight_.visit_state(state); });
+  }
 
   /// Particles are sorted anew: no images, no feet.
   void forget();
