@@ -7,9 +7,7 @@
 // with w = W over its lattice sum, divided by the filling of gas as in riemann.hpp. Work and force have one p* a pair: momentum
 // along the axis and energy are conserved to round-off, whatever slope is. A ring is its own neighbour: the loop meets it with
 // half a weight from either side. Images in walls count as half a neighbour. One in a wall along the axis has no hoop, which
-// would be turned round on its way back to the particle that it shows: i feels its own whole. So it is with the dummy particles
-// of a lined wall, which is smooth: they count whole, have rings, and no hoop. Their force has its normal part alone, and of
-// that n_r times n_r balances a hoop: i feels as much of it, all along a cylinder and nothing across a disc.
+// would be turned round on its way back to the particle that it shows: i feels its own whole. There are no dummy particles.
 #pragma once
 
 #include "sph_fluid/schemes/reconstruction.hpp"
@@ -26,21 +24,6 @@ struct StateOfRing : Base, RingState<V> {
     Base::read(entry);
     area = this->vz;
     this->vz = V{};
-  }
-};
-
-/// A dummy particle of a smooth wall. Where it would have a third velocity its row has a, for its slip its area.
-template <class V>
-struct WallOfRing : WallState<V> {
-  V a, area;
-
-  template <class Read>
-  UNDEX_INLINE void read(Read entry) {
-    WallState<V>::read(entry);
-    a = this->vz;
-    area = this->slip;
-    this->vz = V{};
-    this->slip = broadcast(Element<V>(1));
   }
 };
 
@@ -70,13 +53,6 @@ struct GradientsOfRings : Gradients<T> {
       this->vz = V{};
     }
   };
-  struct Wall : WallOfRing<V> {
-    template <class Read>
-    UNDEX_INLINE void read(Read entry) {
-      WallOfRing<V>::read(entry);
-      this->volume = this->area;
-    }
-  };
 
   void store(const Vec<double>* s, bool gas, const PairInput& in, std::uint32_t first, int count) const {
     Gradients<T>::store(s, gas, in, first, count);
@@ -96,7 +72,6 @@ struct RatesOfRings : Scheme<T> {
   using V = Vec<T>;
   using Plane = Scheme<T>;
   using State = StateOfRing<typename Plane::State, V>;
-  using Wall = WallOfRing<V>;
   using Sums = typename Plane::Sums;
   using Plane::Plane;
   static constexpr bool rings = true;
@@ -123,15 +98,6 @@ struct RatesOfRings : Scheme<T> {
     sj.compression += Cj;
     si.heat += Di * p_star - Ci * i.p;
     sj.heat += Dj * p_star - Cj * j.p;
-  }
-
-  UNDEX_INLINE void wall(const State& i, const Wall& w, Pair<V> pair, Sums& si, WallSums<V>& sw) const {
-    pair.F *= T(0.5) * (i.a + w.a);
-    const V p_star = Plane::wall(i, w, pair, si, sw);
-    const V hoop = w.volume * pair.W * i.slope * w.nx * w.nx, D = hoop * i.vx;
-    si.fx -= hoop * p_star;
-    si.compression += D;
-    si.heat += D * (p_star - i.p);
   }
 };
 

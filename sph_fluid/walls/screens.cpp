@@ -12,7 +12,8 @@
 namespace undex::sph {
 namespace {
 
-constexpr double soft = 0.1;  // in spacings: so far beside an edge a way is partly free
+constexpr double same = 1e-9;  // share of a way within which it meets walls at one place
+constexpr double soft = 0.1;   // in spacings: so far beside an edge a way is partly free
 
 /// From the inside of the way a-b to the edge p-q [m], if that is less than `most`.
 std::optional<double> distance_between(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& along, double most) {
@@ -28,7 +29,8 @@ std::optional<double> distance_between(const Vec3& a, const Vec3& b, const Vec3&
     s = std::clamp(s, 0.0, 1.0);
     t = (s * de - dr) / dd;
   }
-  if (!(t > 0.0 && t < 1.0)) return std::nullopt;
+  constexpr double end = 1e-4;  // a way that turns at a mirror may do so at an edge
+  if (!(t > -end && t < 1.0 + end)) return std::nullopt;
   const double distance = (r + t * d - s * along).norm();
   return distance < most ? std::optional(distance) : std::nullopt;
 }
@@ -61,6 +63,14 @@ bool Way::is_free() const {
   return entered == nullptr;
 }
 
+bool Way::enters(const Vec3& normal) const {
+  for (const Crossing& crossing : crossings) {
+    if (crossing.at - crossings[0].at >= same) break;
+    if (crossing.entering && crossing.normal.dot(normal) > alike) return true;
+  }
+  return false;
+}
+
 double Way::graze(int sheet) const {
   double most = 0.0;
   for (const Graze& graze : grazed)
@@ -81,8 +91,11 @@ void Screens::build(const std::vector<MirrorWall>& walls, const ThinWalls& thin,
   reach_ = reach;
   spacing_ = settings.lattice.spacing;
   for (int w = 0; w < int(walls.size()); ++w)
-    for (int f = 0; f < int(walls[w].faces.size()) && thin.contain(w); ++f)
-      add_face(corners_of(walls[w].faces[f], walls[w].position), thin.sheet(w, f), thin.open(w, f), faces, settings);
+    for (int f = 0; f < int(walls[w].faces.size()) && thin.contain(w); ++f) {
+      const auto corner = corners_of(walls[w].faces[f], walls[w].position);
+      add_face(corner, thin.sheet(w, f), thin.open(w, f), faces, settings);
+      if (thin.goes_on(w, f)) add_beyond(corner, thin.sheet(w, f), thin.open(w, f), thin.goes_on(w, f), faces, settings);
+    }
   sort_by_plane();
   sort_by_place(settings.dimension);
 }
@@ -131,6 +144,25 @@ void Screens::add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, con
   for (int a = 0; a < 3; ++a)
     if (settings.symmetry.axis[a]) in_plane(a, 0.0);
   for (const auto& [x, turned] : copies) add_copy(x, turned, sheet, open);
+}
+
+void Screens::add_beyond(const std::array<Vec3, 4>& corner, int sheet, unsigned open, unsigned edges, const SlipFaces& faces,
+                         const Settings& settings) {
+  const Vec3 middle = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+  std::array<Vec3, 4> outward;
+  for (int e = 0; e < 4; ++e) {
+    outward[e].setZero();
+    if (!(edges >> e & 1)) continue;
+    const Vec3 along = (corner[(e + 1) % 4] - corner[e]).normalized(), away = corner[e] - middle;
+    outward[e] = 2.0 * reach_ * (away - away.dot(along) * along).normalized();
+  }
+  for (int e = 0; e < 4; ++e) {
+    if (!(edges >> e & 1)) continue;
+    const int before = (e + 3) % 4, after = (e + 1) % 4;
+    const Vec3 &a = corner[e], &b = corner[after];
+    const unsigned sides = (open >> before & 1) << 1 | (open >> after & 1) << 3;
+    add_face({b, a, a + outward[e] + outward[before], b + outward[e] + outward[after]}, sheet, sides, faces, settings);
+  }
 }
 
 void Screens::add_copy(const std::array<Vec3, 4>& x, bool turned, int sheet, unsigned open) {
@@ -266,6 +298,20 @@ void Screens::find(const Near& all, const Vec3& from, Near& near) const {
     if (within(e->from, e->along.norm())) near.edges_.push_back(e);
 }
 
+namespace {
+
+void tidy(std::vector<Way::Crossing>& crossings) {
+  if (crossings.size() < 2) return;
+  std::sort(crossings.begin(), crossings.end(), [](const Way::Crossing& p, const Way::Crossing& q) { return p.at < q.at; });
+  // On the line between two triangles both have it.
+  const auto last = std::unique(crossings.begin(), crossings.end(), [](const Way::Crossing& p, const Way::Crossing& q) {
+    return q.at - p.at < same && p.entering == q.entering && p.normal.dot(q.normal) > alike;
+  });
+  crossings.erase(last, crossings.end());
+}
+
+}  // namespace
+
 bool Screens::Triangle::holds(const Vec3& x) const {
   constexpr double rim = 1e-9;
   const double along_it = (x - corner).dot(u), across_it = (x - corner).dot(v);
@@ -292,15 +338,7 @@ void Screens::follow(const Vec3& a, const Vec3& b, const Near& near, Way& way) c
       if (triangle.holds(x)) way.crossings.push_back({at, before < 0.0, triangle.normal, triangle.offset, triangle.sheet});
     }
   }
-  if (way.crossings.size() < 2) return;
-  std::sort(way.crossings.begin(), way.crossings.end(),
-            [](const Way::Crossing& p, const Way::Crossing& q) { return p.at != q.at ? p.at < q.at : p.entering > q.entering; });
-  // On the line between two triangles both have it.
-  way.crossings.erase(std::unique(way.crossings.begin(), way.crossings.end(),
-                                  [](const Way::Crossing& p, const Way::Crossing& q) {
-                                    return q.at - p.at < 1e-9 && p.entering == q.entering && p.normal.dot(q.normal) > alike;
-                                  }),
-                      way.crossings.end());
+  tidy(way.crossings);
 }
 
 std::size_t Screens::memory_bytes() const {

@@ -37,10 +37,8 @@ struct Way {
   /// A wall that bulges into the way, and looks the same way where the way leaves it, hides nothing: its images stand as if it
   /// were plane.
   bool is_free() const;
-  /// Is the first wall one that looks as `normal` does?
-  bool enters(const Vec3& normal) const {
-    return !crossings.empty() && crossings[0].entering && crossings[0].normal.dot(normal) > alike;
-  }
+  /// Is the first wall, or through an edge one of the first, one that looks as `normal` does?
+  bool enters(const Vec3& normal) const;
   /// Of the open edges of a sheet, or of all (-1).
   double graze(int sheet) const;
   /// What of the way would be free if the walls that it meets, but for sheet `but`, ended a little earlier.
@@ -93,6 +91,9 @@ class Screens {
 
  private:
   void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces, const Settings& settings);
+  /// Adds what goes on beyond edges of a face.
+  void add_beyond(const std::array<Vec3, 4>& corner, int sheet, unsigned open, unsigned edges, const SlipFaces& faces,
+                  const Settings& settings);
   void add_copy(const std::array<Vec3, 4>& corner, bool turned, int sheet, unsigned open);
   void sort_by_plane();
   void sort_by_place(int dimension);

@@ -37,8 +37,7 @@ class Union {
 
 }  // namespace
 
-Sheets::Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, const std::array<bool, 3>& symmetry,
-               const SlipFaces& containers, double tolerance) {
+Sheets::Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, const Ends& ends) {
   struct Side {
     int face, edge;
   };
@@ -49,17 +48,22 @@ Sheets::Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> 
       const auto [a, b] = std::minmax(faces[f][e], faces[f][(e + 1) % 4]);
       edges[{a, b}].push_back({f, e});
     }
-  const auto lies_in_plane = [&](int node, int axis) { return symmetry[axis] && std::abs(position[node][axis]) <= tolerance; };
+  const auto lies_in_plane = [&](int node, int axis) {
+    return ends.symmetry[axis] && std::abs(position[node][axis]) <= ends.tolerance;
+  };
 
   Union joined(faces.size());
   open_.assign(faces.size(), 0u);
   sharp_.assign(faces.size(), 0u);
+  goes_on_.assign(faces.size(), 0u);
   std::vector<bool> parted(position.size(), false);
   for (const auto& [nodes, sides] : edges) {
-    bool held = containers.hold(position[nodes.first], position[nodes.second], tolerance);
+    const bool goes_on = ends.radiating.hold(position[nodes.first], position[nodes.second], ends.tolerance);
+    bool held = goes_on || ends.fixed.hold(position[nodes.first], position[nodes.second], ends.tolerance);
     for (int a = 0; a < 3; ++a) held = held || (lies_in_plane(nodes.first, a) && lies_in_plane(nodes.second, a));
     if (sides.size() == 1) {
       if (!held) open_[sides[0].face] |= 1u << sides[0].edge;
+      if (goes_on) goes_on_[sides[0].face] |= 1u << sides[0].edge;
       continue;
     }
     for (std::size_t k = 1; k < sides.size(); ++k) {

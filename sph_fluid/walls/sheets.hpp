@@ -1,5 +1,6 @@
 // The sheets of a mirror mesh: faces joined by edges across which the surface turns by less than seventy degrees. A sheet ends at
-// its open edges: where the mesh ends, and where the wall turns away from the fluid, as a box does at its edges.
+// its open edges: where the mesh ends, and where the wall turns away from the fluid, as a box does at its edges. Where the mesh
+// ends at a radiating face of a container the wall goes on.
 #pragma once
 
 #include <array>
@@ -15,10 +16,15 @@ class Sheets {
  public:
   /// Of a mesh that is one sheet without open edges.
   Sheets() = default;
-  /// Of faces (core/surface.hpp) with their nodes at `position` [m]. An edge in a symmetry plane or in one of the containers'
-  /// faces, where the mesh goes on as its own image, is not open; `tolerance` [m].
-  Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, const std::array<bool, 3>& symmetry,
-         const SlipFaces& containers, double tolerance);
+  /// Where meshes end without an open edge: at symmetry planes and containers' faces they go on as their own images, at those
+  /// that radiate as they are.
+  struct Ends {
+    std::array<bool, 3> symmetry{};
+    SlipFaces fixed{}, radiating{};
+    double tolerance = 0;  ///< [m]
+  };
+  /// Of faces (core/surface.hpp) with their nodes at `position` [m].
+  Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> position, const Ends& ends);
 
   int count() const { return count_; }
   int sheet(int face) const { return sheet_.empty() ? 0 : sheet_[face]; }
@@ -26,6 +32,8 @@ class Sheets {
   unsigned open(int face) const { return open_.empty() ? 0u : open_[face]; }
   /// Bit e: it is open and the wall goes on behind it.
   unsigned sharp(int face) const { return sharp_.empty() ? 0u : sharp_[face]; }
+  /// Bit e: there the wall goes on beyond the mesh.
+  unsigned goes_on(int face) const { return goes_on_.empty() ? 0u : goes_on_[face]; }
 
   /// Replaces normals at the corners of a face that lie on a sharp open edge: there they are those of the face's own sheet.
   /// Of nodes on a symmetry plane they lie in it.
@@ -40,7 +48,7 @@ class Sheets {
   };
   int count_ = 1;
   std::vector<int> sheet_;
-  std::vector<unsigned> open_, sharp_;
+  std::vector<unsigned> open_, sharp_, goes_on_;
   std::vector<Corner> corners_;  // on sharp edges, sorted by face
 };
 

@@ -109,40 +109,55 @@ double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes,
     bool thick;
     Vec3 normal, shown;
   };
-  const auto mirror_of = [&](std::uint32_t g) -> Mirror {
-    const SeenImage::Glass& glass = glasses_[g];
-    return {thin_.sheet(glass.wall, glass.face), !is_thin(glass.wall), mirrored(glass.normal, axes), mirrored(glass.shown, axes)};
-  };
-  const std::uint32_t last = images_[j].last;
-  Mirror next = mirror_of(images_[j].first);
-  double share = 1.0;
-  for (std::uint32_t g = images_[j].first; g < last; ++g) {
-    Mirror mirror = next;
-    if (g + 1 < last) next = mirror_of(g + 1);
-    screens_.follow(from, at, near, way);
-    bool through = way.enters(mirror.normal);
-    if (!through && g + 1 < last && way.enters(next.normal) && std::abs(mirror.normal.dot(next.normal)) < alike) {
-      // Where walls meet at a right angle the image is the same in either order.
-      const Vec3 object = next.shown;
-      const double across = (at - 0.5 * (mirror.shown + object)).dot(next.normal);
-      std::swap(mirror, next);
-      mirror.shown = at - 2.0 * across * mirror.normal;
-      next.shown = object;
-      through = true;
+  std::array<Mirror, longest_chain> mirrors;
+  const int count = int(images_[j].last - images_[j].first);
+  for (int k = 0; k < count; ++k) {
+    const SeenImage::Glass& glass = glasses_[images_[j].first + k];
+    mirrors[k] = {thin_.sheet(glass.wall, glass.face), !is_thin(glass.wall), mirrored(glass.normal, axes),
+                  mirrored(glass.shown, axes)};
+  }
+  // Where walls meet at right angles an image is the same in any order: the mirror that the way enters comes first.
+  const auto sort_from = [&](int first) {
+    for (int k = first; k < count; ++k) {
+      const Mirror entered = mirrors[k];
+      if (!entered.thick && way.enters(entered.normal)) {
+        const double plane = 0.5 * (entered.shown + (k > first ? mirrors[k - 1].shown : at)).dot(entered.normal);
+        const auto across = [&](const Vec3& x) -> Vec3 { return x - 2.0 * (x.dot(entered.normal) - plane) * entered.normal; };
+        for (int m = k; m > first; --m) {
+          mirrors[m] = mirrors[m - 1];
+          mirrors[m].shown = across(mirrors[m].shown);
+        }
+        mirrors[first] = entered;
+        mirrors[first].shown = across(at);
+        return true;
+      }
+      for (int m = k + 1; m < count; ++m)
+        if (std::abs(entered.normal.dot(mirrors[m].normal)) > alike) return false;
     }
-    const double grazed = way.graze(mirror.sheet);
-    share = std::min(share, through        ? 1.0 - grazed
-                            : mirror.thick ? way.free_share()
-                                           : std::min(grazed, way.beside(mirror.sheet)));
-    if (share <= 0.0) return 0.0;
-    // Beside an edge the mirror's plane lies halfway between the image and what it shows.
+    return false;
+  };
+  double share = 1.0;
+  for (int k = 0; k < count; ++k) {
+    screens_.follow(from, at, near, way);
+    const bool through = sort_from(k);
+    const Mirror& mirror = mirrors[k];
+    // Beside an edge, and where it is thick, the mirror's plane lies halfway between the image and what it shows.
     const double depth = (at - from).dot(mirror.normal), before = (0.5 * (at + mirror.shown) - from).dot(mirror.normal);
     const double reached = through ? way.crossings[0].at : depth > 0.0 ? std::clamp(before / depth, 0.0, 1.0) : 0.0;
-    from += (reached - 1e-6) * (at - from) - 1e-6 * spacing_ * mirror.normal;
+    const Vec3 mirrored_at = from + (reached - 1e-6) * (at - from) - 1e-6 * spacing_ * mirror.normal;
+    if (mirror.thick) {
+      screens_.follow(from, mirrored_at, near, way);
+      share = std::min(share, way.free_share());
+    } else {
+      const double grazed = way.graze(mirror.sheet);
+      share = std::min(share, through ? 1.0 - grazed : std::min(grazed, way.beside(mirror.sheet)));
+    }
+    if (share <= 0.0) return 0.0;
+    from = mirrored_at;
     at = mirror.shown;
   }
   screens_.follow(from, at, near, way);
-  return way.is_free() ? share : 0.0;
+  return std::min(share, way.free_share());
 }
 
 void Sight::weigh(const void* self, const PairInput& in, const SightQuestion& question) {

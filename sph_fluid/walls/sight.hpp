@@ -15,6 +15,7 @@
 // the same sheet.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -31,8 +32,11 @@
 
 namespace undex::sph {
 
+/// An image of an image, and so on, at most.
+constexpr int longest_chain = 8;
+
 /// An image as a question of sight: the mirrors of walls on the way to its particle, the one that it stands behind first.
-/// Containers' faces hide nothing; what lies behind them is mirrored in them.
+/// Containers' fixed faces hide nothing; what lies behind them is mirrored in them.
 struct SeenImage {
   struct Glass {
     int wall, face;

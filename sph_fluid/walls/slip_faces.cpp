@@ -62,14 +62,14 @@ Bounds beyond_radiating(const Wall& wall, Bounds box) {
 /// In how many directions the wall is curved, as a scene of that dimension sees it.
 int curved(const SlipFaces::Round& wall, int dimension) { return dimension - 1 - (wall.axis >= 0 && wall.axis < dimension); }
 
-/// The faces whose condition is one of those that are wanted.
-SlipFaces faces_of(const Settings& settings, bool free_slip, bool no_slip) {
+/// The faces whose condition is one of those.
+SlipFaces faces_of(const Settings& settings, std::initializer_list<FaceCondition> conditions) {
   SlipFaces result;
   for (const Wall& wall : settings.walls) {
     const auto wanted = [&](const std::string& face) {
       const auto found = wall.faces.find(face);
-      if (found == wall.faces.end() || found->second == FaceCondition::free_slip) return free_slip;
-      return no_slip && found->second == FaceCondition::no_slip;
+      const FaceCondition condition = found == wall.faces.end() ? FaceCondition::free_slip : found->second;
+      return std::find(conditions.begin(), conditions.end(), condition) != conditions.end();
     };
     const Bounds box = bounds(wall.container, settings.dimension), window = beyond_radiating(wall, box);
     const auto is_cut = [&](int axis) { return settings.symmetry.axis[axis] && box.low[axis] <= 0.0; };
@@ -77,8 +77,8 @@ SlipFaces faces_of(const Settings& settings, bool free_slip, bool no_slip) {
       // A symmetry plane stands in for what it cuts off.
       const bool cut = is_cut(axis), with_low = wanted(low) && !cut, with_high = wanted(high);
       if (!with_low && !with_high) return;
-      const double low_at = cut ? 0.0 : with_low ? window.low[axis] : -1e300;
-      const double high_at = with_high ? window.high[axis] : 1e300;
+      const double low_at = cut ? 0.0 : with_low ? box.low[axis] : -1e300;
+      const double high_at = with_high ? box.high[axis] : 1e300;
       result.plane.push_back({.axis = axis, .low = low_at, .high = high_at, .symmetric = cut, .window = window});
     };
     const auto add_cone = [&](const Cone& cone) {
@@ -120,11 +120,19 @@ SlipFaces faces_of(const Settings& settings, bool free_slip, bool no_slip) {
 
 }  // namespace
 
-SlipFaces slip_faces(const Settings& settings) { return faces_of(settings, mirrors_fluid(settings.numerics.scheme), false); }
+SlipFaces slip_faces(const Settings& settings) {
+  if (!mirrors_fluid(settings.numerics.scheme)) return {};
+  return faces_of(settings, {FaceCondition::free_slip});
+}
 
-SlipFaces lined_faces(const Settings& settings) { return faces_of(settings, !mirrors_fluid(settings.numerics.scheme), true); }
+SlipFaces lined_faces(const Settings& settings) {
+  if (mirrors_fluid(settings.numerics.scheme)) return faces_of(settings, {FaceCondition::no_slip});
+  return fixed_faces(settings);
+}
 
-SlipFaces fixed_faces(const Settings& settings) { return faces_of(settings, true, true); }
+SlipFaces fixed_faces(const Settings& settings) { return faces_of(settings, {FaceCondition::free_slip, FaceCondition::no_slip}); }
+
+SlipFaces radiating_faces(const Settings& settings) { return faces_of(settings, {FaceCondition::radiating}); }
 
 double clearance(const SlipFaces& faces, const Bounds& box) {
   double least = 1e300;

@@ -58,6 +58,8 @@ SlipFaces slip_faces(const Settings& settings);
 SlipFaces lined_faces(const Settings& settings);
 /// Both.
 SlipFaces fixed_faces(const Settings& settings);
+/// Those that radiate, as they are at the start.
+SlipFaces radiating_faces(const Settings& settings);
 
 /// Does the scheme mirror the fluid in slip walls? (The published one lines them with dummy particles.)
 constexpr bool mirrors_fluid(SchemeName scheme) { return scheme != SchemeName::paper; }

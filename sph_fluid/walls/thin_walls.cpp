@@ -40,7 +40,7 @@ class ThinWalls::Search {
     std::array<Vec3, 4> corner;  // [m]
     Vec3 middle, normal;
     double radius;  // of the ball about it [m]
-    unsigned open, sharp;
+    unsigned open, sharp, goes_on;
   };
 
   Search(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, std::span<const Vec3> position, double reach,
@@ -60,7 +60,8 @@ class ThinWalls::Search {
                   .normal = (corner[2] - corner[0]).cross(corner[3] - corner[1]).normalized(),
                   .radius = 0,
                   .open = sheets[w].open(f),
-                  .sharp = sheets[w].sharp(f)};
+                  .sharp = sheets[w].sharp(f),
+                  .goes_on = sheets[w].goes_on(f)};
         const bool segment = is_segment(walls[w].faces[f]);
         for (Vec3 x : corner) {
           if (segment) x[2] = face.middle[2];
@@ -174,9 +175,11 @@ void ThinWalls::look(const std::vector<MirrorWall>& walls, const std::vector<She
   for (const MirrorWall& wall : walls) plain_.emplace_back(wall.faces.size(), true);
   sheet_.resize(walls.size());
   open_.resize(walls.size());
+  goes_on_.resize(walls.size());
   for (std::size_t w = 0; w < walls.size(); ++w) {
     sheet_[w].assign(walls[w].faces.size(), 0);
     open_[w].assign(walls[w].faces.size(), 0u);
+    goes_on_[w].assign(walls[w].faces.size(), 0u);
   }
 #pragma omp parallel for schedule(dynamic, 64)
   for (int k = 0; k < count; ++k) {
@@ -184,6 +187,7 @@ void ThinWalls::look(const std::vector<MirrorWall>& walls, const std::vector<She
     if (!thin_[face.wall]) continue;
     plain_[face.wall][face.face] = search.is_plain(face);
     sheet_[face.wall][face.face] = face.sheet;
+    goes_on_[face.wall][face.face] = face.goes_on;
     unsigned& open = open_[face.wall][face.face] = face.open;
     for (int e = 0; e < 4 && walls.size() > 1; ++e)
       if (open >> e & 1 && search.is_held(face, e)) open &= ~(1u << e);
@@ -197,7 +201,7 @@ void ThinWalls::visit_state(StateVisitor& state) {
 
 std::size_t ThinWalls::memory_bytes() const {
   std::size_t bytes = looked_at_.capacity() * sizeof(Vec3);
-  for (const auto& faces : plain_) bytes += faces.capacity() * (1 + sizeof(int) + sizeof(unsigned));
+  for (const auto& faces : plain_) bytes += faces.capacity() * (1 + sizeof(int) + 2 * sizeof(unsigned));
   return bytes;
 }
 

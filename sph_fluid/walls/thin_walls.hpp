@@ -26,6 +26,8 @@ class ThinWalls {
   int sheet(int wall, int face) const { return sheet_[wall][face]; }
   /// Bit e: edge e is open, and stands on no other wall.
   unsigned open(int wall, int face) const { return open_[wall][face]; }
+  /// Bit e: beyond edge e the wall goes on.
+  unsigned goes_on(int wall, int face) const { return goes_on_[wall][face]; }
 
   /// Where they were last sought.
   void visit_state(StateVisitor& state);
@@ -40,7 +42,7 @@ class ThinWalls {
   std::vector<bool> thin_;                // per wall
   std::vector<std::vector<char>> plain_;  // per wall and face, as the next
   std::vector<std::vector<int>> sheet_;
-  std::vector<std::vector<unsigned>> open_;
+  std::vector<std::vector<unsigned>> open_, goes_on_;
 };
 
 }  // namespace undex::sph

@@ -40,7 +40,12 @@ double reach_of_liquid(const Settings& settings) {
 }
 
 Sheets sheets_of(const MirrorWall& wall, const Settings& settings) {
-  return {wall.faces, wall.position, settings.symmetry.axis, fixed_faces(settings), 1e-3 * settings.lattice.spacing};
+  return {wall.faces,
+          wall.position,
+          {.symmetry = settings.symmetry.axis,
+           .fixed = fixed_faces(settings),
+           .radiating = radiating_faces(settings),
+           .tolerance = 1e-3 * settings.lattice.spacing}};
 }
 
 PointLoads unloaded(const std::vector<MirrorWall>& walls) {
@@ -57,9 +62,8 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
   see_first_places(settings, walls);
   SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis, settings.lattice.spacing);
   look(settings, walls);
-  std::function<unsigned(int, int)> open;
-  if (!sight_.empty()) open = [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); };
-  feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing, open);
+  feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing,
+                    [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); });
   if (on_feet) {
     on_feet(feet_);
     seen.see_velocities(footprints_);
@@ -126,7 +130,7 @@ void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces
 }
 
 unsigned WallImages::open_edges(int wall, int face, const Sheets& sheets) const {
-  return sight_.is_thin(wall) ? sheets.open(face) : 0u;
+  return (sight_.is_thin(wall) ? sheets.open(face) : 0u) | sheets.goes_on(face);
 }
 
 void WallImages::find_shown(const Particles& particles) {
@@ -137,7 +141,7 @@ void WallImages::find_shown(const Particles& particles) {
     chain.clear();
     Vec3 before = place_of(particles, images_[c].owner);  // where the next mirror's object stands
     for_each_mirror(c, [&](const Image& image) {
-      if (image.foot >= 0 && !image.radiating) {
+      if (image.foot >= 0) {
         chain.push_back({feet_[image.foot].wall, feet_[image.foot].face, before, image.normal});
       } else {
         for (SeenImage::Glass& glass : chain)
@@ -208,23 +212,28 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                       .normal = image.normal,
                       .wall_velocity = Vec3::Zero()});
   };
-  auto foot = std::lower_bound(feet_.begin(), feet_.end(), i, [](const WallFoot& a, std::uint32_t k) { return a.particle < k; });
-  for (; foot != feet_.end() && foot->particle == i; ++foot) {
-    if (foot->at.distance <= 0.0) continue;
-    const WallPoint wall = seen.point(*foot);
-    const Vec3 place = wall.foot + foot->at.distance * wall.normal;
-    if (walls[foot->wall].radiates()) mirror_in_next(*foot, wall, walls, settings, mark, images);
-    images.push_back({.owner = i,
-                      .parent = -1,
-                      .foot = int(foot - feet_.begin()),
-                      .stretch = wall.stretch * further(place, x),
-                      .place = place,
-                      .normal = wall.normal,
-                      .wall_velocity = wall.velocity,
-                      .radiating = walls[foot->wall].radiates(),
-                      .lead = wall.lead});
-  }
+  const auto first =
+      std::lower_bound(feet_.begin(), feet_.end(), i, [](const WallFoot& a, std::uint32_t k) { return a.particle < k; });
+  const auto add_feet = [&](bool radiating) {
+    for (auto foot = first; foot != feet_.end() && foot->particle == i; ++foot) {
+      if (foot->at.distance <= 0.0 || walls[foot->wall].radiates() != radiating) continue;
+      const WallPoint wall = seen.point(*foot);
+      const Vec3 place = wall.foot + foot->at.distance * wall.normal;
+      if (radiating) mirror_in_radiating(*foot, wall, settings, mark, images);
+      images.push_back({.owner = i,
+                        .parent = -1,
+                        .foot = int(foot - feet_.begin()),
+                        .stretch = wall.stretch * further(place, x),
+                        .place = place,
+                        .normal = wall.normal,
+                        .wall_velocity = wall.velocity,
+                        .radiating = radiating,
+                        .lead = wall.lead});
+    }
+  };
+  add_feet(false);
   add_images_between(seen, depth, settings, mark, images);
+  add_feet(true);
   for (const SlipFaces::Round& wall : faces.round)
     each([&](const Vec3& at, int parent) {
       if (wall.ends >= 0)
@@ -261,7 +270,7 @@ void WallImages::add_images_between(const SeenMirrors& seen, double depth, const
   for (std::size_t a = mark; a < single; ++a)
     for (std::size_t b = mark; b < single; ++b) {
       const Image first = images[a], second = images[b];
-      if (first.foot < 0 || second.foot < 0 || first.radiating || second.radiating) continue;
+      if (first.foot < 0 || second.foot < 0) continue;
       const WallFoot &foot = feet_[first.foot], &other = feet_[second.foot];
       if (foot.wall == other.wall && sheets_[foot.wall].sheet(foot.face) == sheets_[foot.wall].sheet(other.face)) continue;
       const double turned = first.normal.dot(second.normal);
@@ -274,15 +283,13 @@ void WallImages::add_images_between(const SeenMirrors& seen, double depth, const
     }
 }
 
-void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls,
-                                const Settings& settings, std::size_t mark, std::vector<Image>& images) const {
+void WallImages::mirror_in_radiating(const WallFoot& foot, const WallPoint& face, const Settings& settings, std::size_t mark,
+                                     std::vector<Image>& images) const {
   for (std::size_t k = mark, count = images.size(); k < count; ++k) {
-    bool next = true;
-    for (int c = int(k); c >= 0 && next; c = images[c].parent) {
-      const int wall = feet_[images[c].foot].wall;
-      next = wall != foot.wall && walls[wall].radiates() && std::abs(images[c].normal.dot(face.normal)) < 0.5;
-    }
-    if (!next) continue;
+    bool meets = true;
+    for (int c = int(k); c >= 0 && meets; c = images[c].parent)
+      meets = feet_[images[c].foot].wall != foot.wall && std::abs(images[c].normal.dot(face.normal)) < 0.5;
+    if (!meets) continue;
     Image image = images[k];
     image.parent = int(k);
     image.foot = int(&foot - feet_.data());
@@ -290,6 +297,7 @@ void WallImages::mirror_in_next(const WallFoot& foot, const WallPoint& face, con
     image.stretch = face.stretch * (settings.axisymmetric ? image.place[0] / images[k].place[0] : 1.0);
     image.normal = face.normal;
     image.wall_velocity = face.velocity;
+    image.radiating = true;
     image.lead = face.lead;
     images.push_back(image);
   }
@@ -363,8 +371,8 @@ void WallImages::forget() {
 
 template <class Visit>
 void WallImages::for_each_mirror(std::uint32_t c, Visit visit) const {
-  int chain[8], length = 0;
-  for (int k = int(c); k >= 0 && length < 8; k = images_[k].parent) chain[length++] = k;
+  int chain[longest_chain], length = 0;
+  for (int k = int(c); k >= 0 && length < longest_chain; k = images_[k].parent) chain[length++] = k;
   while (length-- > 0) visit(images_[chain[length]]);
 }
 

@@ -111,9 +111,9 @@ class WallImages {
   void for_each_mirror(std::uint32_t c, Visit visit) const;
   WallShare put_back_from_mirrors(const Settings& settings, const std::vector<MirrorWall>& walls, Particles& particles,
                                   PointLoads& received) const;
-  /// Appends the images of the images from `mark` on in the radiating face of this foot: edges of such faces are right angles.
-  void mirror_in_next(const WallFoot& foot, const WallPoint& face, const std::vector<MirrorWall>& walls, const Settings& settings,
-                      std::size_t mark, std::vector<Image>& images) const;
+  /// Appends the images of the images from `mark` on in the radiating face of this foot: walls meet it at right angles.
+  void mirror_in_radiating(const WallFoot& foot, const WallPoint& face, const Settings& settings, std::size_t mark,
+                           std::vector<Image>& images) const;
   /// What an image has received goes to whom it shows; the wall has its share.
   struct Left {
     Vec3 force;    // [N]

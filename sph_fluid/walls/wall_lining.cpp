@@ -1,7 +1,6 @@
 #include "sph_fluid/walls/wall_lining.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include "sph_fluid/lattice.hpp"
@@ -35,8 +34,7 @@ void WallLining::mirror(const SlipFaces& faces, double depth, int dimension, std
     }
 }
 
-void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& moving, const SlipFaces& faces,
-                      const RingKernel* rings) {
+void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& moving, const SlipFaces& faces) {
   if (rigid_.empty()) rigid_ = line_walls(settings);
   std::vector<Origin> origin;
   const auto add = [&](const LinedWall& wall, int number) {
@@ -51,6 +49,8 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
   }
   for (std::size_t w = 0; w < rigid_.size(); ++w) add(rigid_[w], -1 - int(w));
   const std::uint32_t n = std::uint32_t(origin.size());
+  if (settings.axisymmetric && n > 0)
+    throw std::invalid_argument("the fluid slips along walls of revolution: take free_slip for every face");
   std::vector<double> place[3];
   for (int a = 0; a < 3; ++a)
     for (const Origin& o : origin) place[a].push_back(o.place[a]);
@@ -76,12 +76,6 @@ void WallLining::pack(const Settings& settings, const std::vector<LinedWall>& mo
                 .nz = normal[2],
                 .volume = wall.volume[o.point],
                 .slip = wall.slip(o.point)};
-    if (!rings) continue;
-    if (rows_[k].slip != 1.0)
-      throw std::invalid_argument("walls of dummy particles are smooth in an axisymmetric scene: take free_slip for every face");
-    const double r = std::max(x[0], 1e-6 * settings.lattice.spacing), area = rows_[k].volume / (2.0 * std::numbers::pi * r);
-    rows_[k].vz = rings->at(r, smoothing_length(settings, settings.lattice.spacing)).a;
-    rows_[k].slip = area;
   }
   if (moving.empty()) rigid_ = {};
   packed_ = true;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "sph_fluid/pairs/cell_list.hpp"
-#include "sph_fluid/pairs/ring_kernel.hpp"
 #include "sph_fluid/settings.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
@@ -18,9 +17,8 @@ class WallLining {
  public:
   /// Must they be packed (anew)?
   bool waits(const Settings& settings, const std::vector<LinedWall>& moving) const;
-  /// Where no wall moves this is done once, and what they are made from is not kept. In a meridian the rows are those of
-  /// rings (schemes/rings.hpp); throws std::invalid_argument where such a wall is not smooth.
-  void pack(const Settings& settings, const std::vector<LinedWall>& moving, const SlipFaces& faces, const RingKernel* rings);
+  /// Where no wall moves this is done once, and what they are made from is not kept. Throws std::invalid_argument in a meridian.
+  void pack(const Settings& settings, const std::vector<LinedWall>& moving, const SlipFaces& faces);
   bool packed() const { return packed_; }
 
   void describe(PairInput& in) const;

@@ -187,7 +187,7 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
 void Evaluation::pack_walls(const ParticleSet& set) {
   if (!lining_.waits(settings_, walls_.lined) || (lining_.packed() && !set.meets_walls)) return;
   const auto timer = timers_.measure("walls");
-  lining_.pack(settings_, walls_.lined, slip_faces_, rings_ ? &*rings_ : nullptr);
+  lining_.pack(settings_, walls_.lined, slip_faces_);
 }
 
 namespace {

@@ -89,7 +89,8 @@ SCENES = {
     "cone": ("3D, cone, a quarter", scene(3, CONE, 0.004, QUARTER), False),
     "sphere": ("3D, sphere, an octant", scene(3, SPHERE, 0.004, OCTANT), True),
     "meridian_cylinder": ("meridian, cylinder, fitted", scene("axisymmetric", TUBE, 0.002, resolution=FIT), False),
-    "meridian_cylinder_off": ("meridian, cylinder off its lattice", scene("axisymmetric", cylinder(0.0437, "0.0005", "0.06"), 0.002), False),
+    "meridian_cylinder_off": ("meridian, cylinder off its lattice",
+                              scene("axisymmetric", cylinder(0.0437, "0.0005", "0.06"), 0.002), False),
     "meridian_cone": ("meridian, cone", scene("axisymmetric", CONE, 0.002), False),
     "meridian_sphere": ("meridian, sphere", scene("axisymmetric", SPHERE, 0.002), True),
     "meridian_sphere_1mm": ("the same at 1 mm", scene("axisymmetric", SPHERE, 0.001), False),
@@ -136,14 +137,16 @@ def main(arguments):
         return 0
     program, _, *names = arguments
     if names[0] == "--table":
-        print("| scene | particles | largest speed | least, largest pressure | mean after 1 ms | without settling |\n|---|---|---|---|---|---|")
+        print("| scene | particles | largest speed | least, largest pressure | mean after 1 ms | without settling |")
+        print("|---|---|---|---|---|---|")
         for name, (what, text, _) in SCENES.items():
             if names[1:] and name not in names[1:]:
                 continue
             speed, least, mean, most, count = measure(program, text)
             laid = measure(program, text, "resolution.settle=false")[2]
             off = [100 * (p / PRESSURE - 1) for p in (least, most, mean, laid)]
-            print(f"| {what} | {count} | {1e3 * speed:.2g} mm/s | {off[0]:+.2f}, {off[1]:+.2f} % | {off[2]:+.2f} % | {off[3]:+.1f} % |", flush=True)
+            print(f"| {what} | {count} | {1e3 * speed:.2g} mm/s | {off[0]:+.2f}, {off[1]:+.2f} % "
+                  f"| {off[2]:+.2f} % | {off[3]:+.1f} % |", flush=True)
         return 0
     found = problems(program, names[0])
     for line in found:
