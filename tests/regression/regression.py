@@ -312,7 +312,8 @@ def test_case(program, cases, name, scratch):
     found += check_histories(case, summary, first) + check_fields(case, summary, first)
     recorded = json.loads(RECORDED.read_text()).get(name)
     found += check_results(results(case, first), recorded) if recorded else ["no values are recorded"]
-    if (first / "scene.toml").read_bytes() != (pathlib.Path(cases) / case.scene / "case.toml").read_bytes():
+    source = pathlib.Path(cases) / case.scene
+    if (first / "scene.toml").read_bytes() != (source / "case.toml" if source.is_dir() else source).read_bytes():
         found.append("scene.toml is not the scene as it was given")
 
     (first / "summary.json").write_text(json.dumps({**summary, "metrics": {}}))
