@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/deformable_body.hpp"
 #include "core/timers.hpp"
 #include "coupling/contacts.hpp"
 #include "coupling/obstacle.hpp"
@@ -31,6 +32,10 @@ class Flow {
   void watch(const DeformableBody& body) { contacts_.watch(body, obstacles_); }
 
   const std::vector<RigidObstacle>& obstacles() const { return obstacles_; }
+  /// The surfaces of all obstacles now (of revolution: in the meridian): `displacement` [m] and `velocity` [m/s] of the nodes; of
+  /// the faces the water's `pressure` beyond that of the surroundings [Pa] (0 before its rates are found) and `obstacle`, the
+  /// number of the body in the scene.
+  BodySnapshot snapshot() const;
   const PassTimers& timers() const { return timers_; }
   void visit_state(StateVisitor& state);
 

@@ -326,13 +326,16 @@ ObstacleLedger RigidObstacle::ledger() const {
 }
 
 ObstacleState RigidObstacle::state() const {
-  ObstacleState now{.position = body_.center(),
+  ObstacleState now{.mass = {},
+                    .displacement = body_.center() - body_.start(),
+                    .position = body_.center(),
                     .velocity = body_.velocity(),
                     .rotation = body_.rotation(),
                     .spin = body_.spin(),
                     .force = last_force_ / share_,
                     .moment = last_moment_ / share_,
                     .impulse = ledger_.received / share_};
+  if (given_.motion == Motion::free) now.mass = body_.mass() / share_;
   for (int a = 0; a < 3; ++a) {
     const bool balanced = cut_[a] || (axisymmetric_ ? a != 1 : a >= dimension_);
     if (balanced) now.force[a] = now.impulse[a] = 0.0;

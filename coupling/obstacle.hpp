@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,10 +32,12 @@ struct ObstacleLedger {
 
 /// What is written of the whole body: vectors of a free motion count what symmetry planes cut off.
 struct ObstacleState {
-  Vec3 position, velocity;  ///< of the middle of mass [m], [m/s]
-  Vec3 rotation, spin;      ///< axis times angle [rad], [rad/s]
-  Vec3 force, moment;       ///< by the water over the last step; about the middle of mass [N], [N m]
-  Vec3 impulse;             ///< by the water since the start [N s]
+  std::optional<double> mass;  ///< of a free body [kg]
+  Vec3 displacement;           ///< of the middle of mass since the start [m]
+  Vec3 position, velocity;     ///< of the middle of mass [m], [m/s]
+  Vec3 rotation, spin;         ///< axis times angle [rad], [rad/s]
+  Vec3 force, moment;          ///< by the water over the last step; about the middle of mass [N], [N m]
+  Vec3 impulse;                ///< by the water since the start [N s]
 };
 
 class RigidObstacle {

@@ -33,7 +33,7 @@ const struct {
     {"history", {"*.csv"}},
     {"fields",
      {"particles.h5part", "solids.h5part", "solids[0-9]*.h5part", "structure_[0-9]*.hdf", "structure[0-9]*_[0-9]*.hdf",
-      "structure.hdf.series", "structure[0-9]*.hdf.series", ".*.part"}},
+      "structure.hdf.series", "structure[0-9]*.hdf.series", "obstacles_[0-9]*.hdf", "obstacles.hdf.series", ".*.part"}},
     {"pictures",
      {"histories.png", "wall_pressure.png", "wall_motion.png", "profile.png", "energy.png", "mid_plane.png", "solids_*.png",
       "motion.png", "pressure.png", "other.png", "cost.png"}},

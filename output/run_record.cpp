@@ -29,6 +29,19 @@ void put_metrics(nlohmann::ordered_json& json, const NamedNumbers& metrics, cons
   for (const auto& [name, reason] : missing) json["missing"][name] = reason;
 }
 
+nlohmann::ordered_json object(const ObstacleRecord& obstacle) {
+  nlohmann::ordered_json json;
+  json["name"] = obstacle.name;
+  json["motion"] = obstacle.motion;
+  if (obstacle.mass) json["mass_kg"] = *obstacle.mass;
+  json["displacement_m"] = obstacle.displacement;
+  json["rotation_rad"] = obstacle.rotation;
+  json["velocity_m_s"] = obstacle.velocity;
+  json["spin_rad_s"] = obstacle.spin;
+  json["impulse_n_s"] = obstacle.impulse;
+  return json;
+}
+
 // The value at `key`, null as NaN; `value` stays as it is where there is no such key, or it holds something else.
 template <class Number>
 void get(const nlohmann::ordered_json& json, const char* key, Number& value) {
@@ -55,6 +68,26 @@ NamedNumbers numbers(const nlohmann::ordered_json& json, const char* key) {
     for (const auto& [name, value] : found->items())
       if (value.is_number() || value.is_null()) result.emplace_back(name, value.is_null() ? nan : value.get<double>());
   return result;
+}
+
+std::vector<double> list(const nlohmann::ordered_json& json, const char* key) {
+  std::vector<double> values;
+  if (const auto found = json.find(key); found != json.end() && found->is_array())
+    for (const auto& value : *found) values.push_back(value.is_number() ? value.get<double>() : nan);
+  return values;
+}
+
+ObstacleRecord obstacle(const nlohmann::ordered_json& json) {
+  ObstacleRecord obstacle;
+  obstacle.name = text(json, "name");
+  obstacle.motion = text(json, "motion");
+  if (json.contains("mass_kg")) get(json, "mass_kg", obstacle.mass.emplace(nan));
+  obstacle.displacement = list(json, "displacement_m");
+  obstacle.rotation = list(json, "rotation_rad");
+  obstacle.velocity = list(json, "velocity_m_s");
+  obstacle.spin = list(json, "spin_rad_s");
+  obstacle.impulse = list(json, "impulse_n_s");
+  return obstacle;
 }
 
 nlohmann::ordered_json summary_at(const std::filesystem::path& path) {
@@ -101,6 +134,7 @@ std::string to_json(const RunRecord& record) {
   json["energy_error"] = record.energy_error;
   if (record.interface_energy_error) json["interface_energy_error"] = *record.interface_energy_error;
   if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;
+  for (const ObstacleRecord& obstacle : record.obstacles) json["obstacles"].push_back(object(obstacle));
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   json["passes"] = object(record.passes);
@@ -150,6 +184,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
   };
   optional("interface_energy_error", record.interface_energy_error);
   optional("interface_impulse_error", record.interface_impulse_error);
+  if (const auto found = json.find("obstacles"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_object()) record.obstacles.push_back(obstacle(each));
   for (const auto& [name, count] : numbers(json, "clamps"))
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
   record.passes = numbers(json, "passes");

@@ -19,6 +19,16 @@ using Reasons = std::vector<std::pair<std::string, std::string>>;
 /// The number of that name, or null.
 const double* find_number(const NamedNumbers& numbers, const std::string& name);
 
+/// What became of a rigid body in the water, whole, at the end. Vectors have as many components as the scene, turns those that
+/// it has.
+struct ObstacleRecord {
+  std::string name, motion;
+  std::optional<double> mass;                  ///< of a free one [kg]
+  std::vector<double> displacement, rotation;  ///< of its middle of mass [m]; axis times angle [rad]
+  std::vector<double> velocity, spin;          ///< [m/s], [rad/s]
+  std::vector<double> impulse;                 ///< by the water since the start [N s]
+};
+
 struct RunRecord {
   std::string scene;    ///< its name
   std::string status;   ///< "done", or why it ended: "stopped", "interrupted", ...
@@ -39,8 +49,9 @@ struct RunRecord {
   std::optional<double> angular_momentum_error;                 ///< relative; closed scenes of solids in particles only
   std::optional<double> interface_energy_error;                 ///< coupled runs only
   std::optional<double> interface_impulse_error;                ///< the same
-  std::vector<std::string> warnings;  ///< what of the scene computes badly, one sentence each; left out when empty
-  std::string program;                ///< version text; left out when empty
+  std::vector<std::string> warnings;      ///< what of the scene computes badly, one sentence each; left out when empty
+  std::string program;                    ///< version text; left out when empty
+  std::vector<ObstacleRecord> obstacles;  ///< left out when empty
   std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
   NamedNumbers passes;                                       ///< seconds per named pass
   NamedNumbers metrics;                                      ///< results of the scene's comparison

@@ -15,10 +15,13 @@ namespace undex::output {
 
 namespace {
 
-constexpr unsigned char vtk_quad = 9, vtk_hexahedron = 12;
+constexpr unsigned char vtk_line = 3, vtk_quad = 9, vtk_hexahedron = 12;
 
-/// Nodes of a cell: a meridian's has each twice.
-std::span<const int> nodes_of(const std::array<int, 8>& cell) { return {cell.data(), is_quadrangle(cell) ? 4u : 8u}; }
+/// Nodes of a cell: a quadrangle has each twice, a segment {a, b, b, a, a, b, b, a}.
+std::span<const int> nodes_of(const std::array<int, 8>& cell) {
+  const bool flat = is_quadrangle(cell), segment = flat && cell[1] == cell[2] && cell[0] == cell[3];
+  return {cell.data(), segment ? 2u : flat ? 4u : 8u};
+}
 
 void check_fields(std::span<const Field> fields, std::size_t count, const char* place) {
   for (const Field& field : fields)
@@ -45,7 +48,7 @@ void write_grid(const hdf5::File& file, const StructureSnapshot& snapshot) {
     const std::span<const int> nodes = nodes_of(cell);
     connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    types.push_back(nodes.size() == 4 ? vtk_quad : vtk_hexahedron);
+    types.push_back(nodes.size() == 2 ? vtk_line : nodes.size() == 4 ? vtk_quad : vtk_hexahedron);
   }
   const std::int64_t connections = static_cast<std::int64_t>(connectivity.size());
   file.dataset(root, "NumberOfConnectivityIds", {&connections, 1});

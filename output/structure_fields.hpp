@@ -1,4 +1,5 @@
-// Structure fields as VTKHDF 1.0 unstructured grids of hexahedra, or of a meridian's quadrangles: one file per snapshot and an
+// Structure fields as VTKHDF 1.0 unstructured grids of hexahedra, of quadrangles (a meridian's cells, faces of a surface) or of
+// segments (faces in a plane): one file per snapshot and an
 // index with the times (structure.hdf.series), the form that ParaView 5.11 opens with true times; it refuses temporal VTKHDF.
 #pragma once
 
@@ -16,8 +17,9 @@ namespace undex::output {
 
 /// One state of the mesh. Spans are borrowed for the call.
 struct StructureSnapshot {
-  std::span<const Vec3> positions;            ///< present positions of the nodes [m]
-  std::span<const std::array<int, 8>> cells;  ///< VTK's order, of hexahedra or of a meridian (core/hexahedral_mesh.hpp)
+  std::span<const Vec3> positions;  ///< present positions of the nodes [m]
+  /// VTK's order, of hexahedra or of a meridian (core/hexahedral_mesh.hpp); a face a, b, c, d is the quadrangle of these.
+  std::span<const std::array<int, 8>> cells;
   std::vector<Field> point_data, cell_data;
 };
 

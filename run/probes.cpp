@@ -68,15 +68,6 @@ std::function<FluidPoint()> fluid_point(const Simulation& simulation, const Vec3
   return [fluid = simulation.fluid(), place] { return fluid->at(place()); };
 }
 
-/// A state of the meridian, in space; along the axis of revolution alone.
-coupling::ObstacleState in_space(coupling::ObstacleState state, const std::optional<Meridian>& meridian) {
-  if (!meridian) return state;
-  const Vec3 outward = meridian->outward();
-  state.position = meridian->place_in_space(state.position, outward);
-  for (Vec3* vector : {&state.velocity, &state.force, &state.impulse}) *vector = meridian->vector_in_space(*vector, outward);
-  return state;
-}
-
 /// What is written of an obstacle: vectors in as many components as the scene has, turns about the axes that are left.
 std::vector<output::Column> obstacle_columns(int dimension) {
   std::vector<output::Column> columns{{"time", "s"}};
@@ -139,8 +130,8 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     const coupling::RigidObstacle& obstacle = simulation.obstacles()[k];
     Channel& channel = channels_.emplace_back();
     channel.name = obstacle.given().name;
-    channel.read = [&simulation, k, dimension, meridian](std::vector<double>& row) {
-      append_state(in_space(simulation.obstacles()[k].state(), meridian), dimension, row);
+    channel.read = [&simulation, k, dimension](std::vector<double>& row) {
+      append_state(simulation.obstacle_state(k), dimension, row);
     };
     channel.path = folder / "history" / (channel.name + ".csv");
     channel.samples = output::Samples(obstacle_columns(dimension));

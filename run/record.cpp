@@ -30,6 +30,19 @@ void add(const DeformableBody& body, output::RunRecord& record) {
   record.solver_memory_bytes += std::int64_t(body.memory_bytes());
 }
 
+output::ObstacleRecord record_of(const coupling::Obstacle& given, const coupling::ObstacleState& state, int dimension) {
+  const int turns = dimension == 3 ? 0 : dimension == 2 ? 2 : 3;
+  const auto part = [](const Vec3& v, int first, int end) { return std::vector<double>(v.data() + first, v.data() + end); };
+  return {.name = given.name,
+          .motion = word_of(given.motion),
+          .mass = state.mass,
+          .displacement = part(state.displacement, 0, dimension),
+          .rotation = part(state.rotation, turns, 3),
+          .velocity = part(state.velocity, 0, dimension),
+          .spin = part(state.spin, turns, 3),
+          .impulse = part(state.impulse, 0, dimension)};
+}
+
 }  // namespace
 
 void Stopwatch::visit_state(StateVisitor& state) {
@@ -52,6 +65,8 @@ output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulat
   if (const sph::Fluid* fluid = simulation.fluid()) add(*fluid, record);
   if (const LineFlow* line = simulation.line()) add(*line, record);
   for (const auto& body : simulation.bodies()) add(*body, record);
+  for (std::size_t k = 0; k < simulation.obstacles().size(); ++k)
+    record.obstacles.push_back(record_of(simulation.obstacles()[k].given(), simulation.obstacle_state(k), scene.fluid.dimension));
   record.peak_memory_bytes = output::peak_memory_bytes();
   record.mass_error = simulation.mass_error();
   record.momentum_error = simulation.momentum_error();

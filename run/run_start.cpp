@@ -13,6 +13,7 @@
 #include "run/spherical_start.hpp"
 #include "run/spherical_state.hpp"
 #include "scene/numbers.hpp"
+#include "scene/opened.hpp"
 #include "scene/revolution.hpp"
 #include "scene/suggestion.hpp"
 #include "sph_fluid/lattice.hpp"
@@ -291,7 +292,8 @@ class RunStart {
     const double end = time.value_or(donor_.scene().end_time), before = 1.5 * scene_.fluid.lattice.spacing;
     if (!time && undisturbed_.empty())
       pairing_.refuse("start.time",
-                      "both scenes have the same bodies and walls, so that no obstacle says when to begin; give start.time");
+                      "in nothing that the scenes do not share the wave would end, so that no obstacle says when to begin; give "
+                      "start.time");
     if (time) donor_.skip_to(*time);
     if (donor_.time() > end)
       pairing_.refuse("start.time", "the donor itself begins at " + microseconds(donor_.time()) + "; take a later time");
@@ -384,15 +386,23 @@ class RunStart {
       field->box = box;
       const bool whole = same_shape(body.shape, donor->fluid.bodies[d].shape);
       const MeanRest mean = mean_rest(body, scene_);
-      field->mass = whole ? share * totals.mass : mean.density * scene::kept_volume(body.shape, scene_);
-      field->kinetic_energy = share * totals.kinetic;
-      field->internal_energy = share * totals.internal + (field->mass - share * totals.mass) * mean.energy;
-      field->momentum = share * totals.momentum;
+      if (!has_left(body, *state)) {
+        field->mass = whole ? share * totals.mass : mean.density * scene::kept_volume(body.shape, scene_);
+        field->kinetic_energy = share * totals.kinetic;
+        field->internal_energy = share * totals.internal + (field->mass - share * totals.mass) * mean.energy;
+        field->momentum = share * totals.momentum;
+      }
       field->exact = true;
       body.start = field;
       body.burn.reset();  // it has burned
     }
     scene_.fluid.heat_before = share * donor_.simulation().energy().dissipated;
+  }
+
+  /// Has a wave passed a radiating face at which the body ends?
+  bool has_left(const sph::Body& body, const ParticleState& state) const {
+    const Primitive exits = scene::with_radiating_faces_only(body.shape.base, scene_.fluid.walls);
+    return state.clearance([&](const Vec3& x) { return -signed_distance(exits, x, scene_.fluid.dimension); }) < 0.0;
   }
 
   /// Nothing may have moved that is not laid over: bodies that this scene lacks, and surfaces of the whole fluid.
@@ -401,10 +411,12 @@ class RunStart {
       if (state.has_moved(d) && body_of(d) == partner_.size())
         pairing_.refuse("start.from", "the donor's body '" + donor_.scene().fluid.bodies[d].name +
                                           "' has moved, and this scene has no body of that name; add it");
+    std::vector<Shape> covered;  // and what lies beyond radiating faces
+    for (const sph::Body& body : scene_.fluid.bodies)
+      covered.push_back({scene::without_radiating_faces(body.shape.base, scene_.fluid.walls), body.shape.removed});
     const double beyond = -state.clearance([&](const Vec3& x) {
       double away = 1e300;
-      for (const sph::Body& body : scene_.fluid.bodies)
-        away = std::min(away, signed_distance(body.shape, x, scene_.fluid.dimension));
+      for (const Shape& shape : covered) away = std::min(away, signed_distance(shape, x, scene_.fluid.dimension));
       return -away;
     });
     if (beyond > scene_.fluid.lattice.spacing)

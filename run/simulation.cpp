@@ -341,6 +341,16 @@ std::optional<double> Simulation::interface_energy_error() const {
   return scale > 0 ? (l->work_given - l->work_received) / scale : 0.0;
 }
 
+coupling::ObstacleState Simulation::obstacle_state(std::size_t which) const {
+  coupling::ObstacleState state = obstacles()[which].state();
+  if (!meridian_) return state;
+  const Vec3 outward = meridian_->outward();
+  state.position = meridian_->place_in_space(state.position, outward);
+  for (Vec3* vector : {&state.displacement, &state.velocity, &state.force, &state.impulse})
+    *vector = meridian_->vector_in_space(*vector, outward);
+  return state;
+}
+
 std::optional<double> Simulation::interface_impulse_error() const {
   const auto l = interface();
   if (!l) return std::nullopt;

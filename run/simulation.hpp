@@ -78,6 +78,10 @@ class Simulation {
   const std::optional<Meridian>& meridian() const { return meridian_; }
   const sph::Fluid* fluid() const { return fluid_.get(); }  ///< in particles; null: none
   /// Rigid bodies in it, as the solvers see them.
+  /// Of all obstacles, as they are now.
+  BodySnapshot obstacle_surfaces() const { return flow_ ? flow_->snapshot() : BodySnapshot(); }
+  /// Of one of them, in space: along the axis of revolution alone where there is one.
+  coupling::ObstacleState obstacle_state(std::size_t which) const;
   std::span<const coupling::RigidObstacle> obstacles() const {
     return flow_ ? std::span(flow_->obstacles()) : std::span<const coupling::RigidObstacle>();
   }

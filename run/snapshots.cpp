@@ -80,6 +80,7 @@ void Snapshots::open(bool goes_on) {
     return goes_on ? output::ParticleFields::continued(path) : output::ParticleFields(path);
   };
   if (simulation_.has_fluid()) water_ = particles("particles");
+  if (!simulation_.obstacles().empty()) obstacles_.emplace(folder_, "obstacles");
   int of_particles = 0, of_cells = 0;
   const auto numbered = [](const std::string& stem, int count) { return count > 1 ? stem + std::to_string(count) : stem; };
   for (const auto& body : simulation_.bodies()) {
@@ -96,6 +97,7 @@ void Snapshots::visit_state(StateVisitor& state) {
   state("last time", last_time_);
   std::string known;  // names of the files, each with a line's end
   if (water_) known += "particles\n";
+  if (obstacles_) known += "obstacles\n";
   for (const BodyFile& file : bodies_) known += file.name + "\n";
   state("files", known);
   const auto visit = [&](const std::string& name, auto& file, const auto& begin_anew) {
@@ -103,6 +105,7 @@ void Snapshots::visit_state(StateVisitor& state) {
     else if (state.restores()) begin_anew();
   };
   if (water_) visit("particles", water_, [&] { water_.emplace(folder_ / "particles.h5part"); });
+  if (obstacles_) visit("obstacles", obstacles_, [] {});
   for (BodyFile& file : bodies_) {
     if (file.particles) visit(file.name, file.particles, [&] { file.particles.emplace(folder_ / (file.name + ".h5part")); });
     if (file.cells) visit(file.name, file.cells, [] {});
@@ -133,6 +136,7 @@ void Snapshots::write(bool at_stop) {
     write_particles(simulation_.time(), in_space(snapshot_of(simulation_, wanted_.particle_fields), meridian),
                     {id.begin(), id.end()}, at_stop, *water_);
   }
+  if (obstacles_) write_cells(simulation_.time(), in_space(simulation_.obstacle_surfaces(), meridian), at_stop, *obstacles_);
   for (BodyFile& file : bodies_) {
     const double time = file.body->time();
     if (file.cells) write_cells(time, in_space(file.body->snapshot({}), meridian), at_stop, *file.cells);

@@ -37,7 +37,7 @@ class Snapshots {
     std::optional<output::ParticleFields> particles;
     std::optional<output::StructureFields> cells;
   };
-  bool is_open() const { return water_ || !bodies_.empty(); }
+  bool is_open() const { return water_ || obstacles_ || !bodies_.empty(); }
   void open(bool goes_on);
   void write(bool at_stop);
 
@@ -47,6 +47,7 @@ class Snapshots {
   double last_time_ = -1.0;
   std::optional<output::ParticleFields> water_;
   std::vector<BodyFile> bodies_;
+  std::optional<output::StructureFields> obstacles_;  ///< their surfaces
 };
 
 }  // namespace undex::run

@@ -10,6 +10,7 @@
 #include "run/spherical_flow.hpp"
 #include "run/spherical_state.hpp"
 #include "scene/numbers.hpp"
+#include "scene/opened.hpp"
 #include "sph_fluid/lattice.hpp"
 
 namespace undex::run {
@@ -41,9 +42,9 @@ bool same_sphere(const Primitive& shape, const Sphere& sphere) {
   return other && other->center == sphere.center && other->radius == sphere.radius;
 }
 
-/// Distance from the charge's center to the nearest place where the flow stops being spherical.
+/// Distance from the charge's center to the nearest place where the flow stops being spherical: none at radiating faces.
 double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, const sph::Body& medium, const Sphere& sphere) {
-  double distance = -signed_distance(medium.shape.base, sphere.center, 3);
+  double distance = -signed_distance(scene::without_radiating_faces(medium.shape.base, scene.fluid.walls), sphere.center, 3);
   for (const Primitive& hole : medium.shape.removed)
     if (!same_sphere(hole, sphere)) distance = std::min(distance, signed_distance(hole, sphere.center, 3));
   for (const sph::Body& body : scene.fluid.bodies)
@@ -59,8 +60,13 @@ struct Charge {
   Sphere sphere;
   double share;       // that symmetry planes keep
   double obstacle;    // distance from its center [m]
-  double last_front;  // beyond which it is too near to the obstacle [m]
+  double exit;        // that to the nearest radiating face [m]
+  double last_front;  // beyond which it is too near to the obstacle; where there is none, to the radiating face [m]
   std::shared_ptr<SphericalFlow> flow = nullptr;
+
+  bool meets_obstacle() const { return obstacle < 0.5 * scene::endless; }
+  double way() const { return meets_obstacle() ? obstacle : exit; }   // of the wave [m]
+  double radius() const { return flow->mesh().interface_radius(0); }  // of the gas [m]
 };
 
 Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t medium, double reach) {
@@ -75,11 +81,27 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
                  "charge");
   if (body.burn && !body.burn->instantaneous && body.burn->origin != sphere.center)
     refuse(scene, "'" + body.name + "' must burn from its center");
-  const double obstacle = obstacle_distance(scene, body, scene.fluid.bodies[medium], sphere);
-  const double last_front = obstacle - reach - scene.fluid.lattice.spacing;
-  if (last_front <= sphere.radius)
-    refuse(scene, "the obstacle is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
-  return {index, sphere, share.value(), obstacle, last_front};
+  const sph::Body& around = scene.fluid.bodies[medium];
+  Charge charge{
+      .body = index,
+      .sphere = sphere,
+      .share = share.value(),
+      .obstacle = obstacle_distance(scene, body, around, sphere),
+      .exit = -signed_distance(scene::with_radiating_faces_only(around.shape.base, scene.fluid.walls), sphere.center, 3),
+      .last_front = 0};
+  const double margin = reach + scene.fluid.lattice.spacing;
+  charge.last_front = charge.way() - margin;
+  if (std::min(charge.obstacle, charge.exit) - margin <= sphere.radius)
+    refuse(scene, "the " + std::string(charge.exit < charge.obstacle ? "radiating face" : "obstacle") +
+                      " is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
+  return charge;
+}
+
+/// Of the mesh [m]. Where no obstacle says how far the flow goes, a front does not come there by start.time.
+double outer_radius(const scene::Scene& scene, const Charge& charge) {
+  constexpr double fastest = 1e4;  // front [m/s]
+  if (charge.meets_obstacle()) return charge.obstacle;
+  return std::max(charge.exit, charge.sphere.radius + fastest * scene.start.time.value_or(0.0));
 }
 
 /// Flows in a medium of one rest only are laid beside each other.
@@ -114,7 +136,9 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
   double stride = std::numeric_limits<double>::infinity();  // a hundredth of the way at about the speed of sound
   for (const Charge& charge : charges) stride = std::min(stride, (charge.last_front - charge.sphere.radius) / 2e5);
   const auto time = [&] { return charges.front().flow->time(); };
-  const auto nears = [&](const Charge& charge) { return charge.flow->front() >= charge.last_front - 0.5 * spacing; };
+  const auto nears = [&](const Charge& charge) {
+    return charge.flow->front() >= charge.last_front - 0.5 * spacing || charge.radius() >= charge.exit - reach - 1.5 * spacing;
+  };
   const auto there = [&] {
     if (scene.start.time) return time() >= *scene.start.time;
     return std::any_of(charges.begin(), charges.end(), nears) || least_room(charges) <= 2.0 * reach + 3.0 * spacing;
@@ -123,9 +147,12 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
     const double next = time() + stride;
     for (const Charge& charge : charges) charge.flow->advance(scene.start.time ? std::min(next, *scene.start.time) : next);
     if (scene.start.time) {
-      for (const Charge& charge : charges)
+      for (const Charge& charge : charges) {
         if (charge.flow->front() > charge.obstacle - 0.5 * reach)
           refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
+        if (charge.radius() > charge.exit - 0.5 * reach)
+          refuse(scene, "at start.time the charge has grown to a radiating face; take an earlier time or leave it out");
+      }
       if (least_room(charges) < reach)
         refuse(scene, "at start.time the waves of two charges have met; take an earlier time or leave it out");
     }
@@ -134,7 +161,7 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
       const SphericalFlow& flow = *charges.front().flow;
       char text[200];
       std::snprintf(text, sizeof text, "spherical start: %.4g us, front at %.4g mm of %.4g mm", flow.time() * 1e6,
-                    flow.front() * 1e3, charges.front().obstacle * 1e3);
+                    flow.front() * 1e3, charges.front().way() * 1e3);
       return std::string(text);
     });
   }
@@ -209,7 +236,7 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
   std::vector<Charge> charges;
   for (const std::size_t index : indices) charges.push_back(charge_in(scene, index, medium, reach));
   for (Charge& charge : charges)
-    charge.flow = std::make_shared<SphericalFlow>(scene, charge.body, charge.obstacle, cells_in_charge);
+    charge.flow = std::make_shared<SphericalFlow>(scene, charge.body, outer_radius(scene, charge), cells_in_charge);
   advance(scene, reach, charges, news);
 
   std::string text;
@@ -219,7 +246,7 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
     const std::string& name = fluid.bodies[charge.body].name;
     if (charges.size() > 1 && flow.front() <= charge.sphere.radius)
       refuse(scene, "the waves of two charges meet before '" + name + "' has burned; take start.kind = \"plain\"");
-    const double radius = flow.mesh().interface_radius(0);
+    const double radius = charge.radius();
     for (const std::size_t index : {charge.body, medium})
       if (const auto& spacing = fluid.bodies[index].spacing; spacing && *spacing > radius)
         refuse(scene, "the spacing of '" + fluid.bodies[index].name + "' exceeds the charge");
@@ -231,7 +258,7 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
     char line[300];
     std::snprintf(line, sizeof line,
                   "%sspherical start: %ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
-                  text.empty() ? "" : "\n", flow.mesh().steps(), flow.time() * 1e6, flow.front() * 1e3, charge.obstacle * 1e3,
+                  text.empty() ? "" : "\n", flow.mesh().steps(), flow.time() * 1e6, flow.front() * 1e3, charge.way() * 1e3,
                   name.c_str(), charge.sphere.radius * 1e3, radius * 1e3);
     text += line;
   }

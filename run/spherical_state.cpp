@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "run/rest.hpp"
+#include "scene/opened.hpp"
 #include "scene/revolution.hpp"
 
 namespace undex::run {
@@ -55,6 +56,11 @@ bool is_layer(const sph::Body& body, const Part& part) {
   if (!is_sphere(body.shape.base, part.center, layer.outer)) return false;
   if (layer.inner == 0.0) return body.shape.removed.empty();
   return body.shape.removed.size() == 1 && is_sphere(body.shape.removed.front(), part.center, layer.inner);
+}
+
+/// Has the wave passed a radiating face at which the body ends?
+bool has_left(const sph::Body& body, const Part& part, const scene::Scene& scene) {
+  return part.front > -signed_distance(scene::with_radiating_faces_only(body.shape.base, scene.fluid.walls), part.center, 3);
 }
 
 /// Of what the scene keeps of a body at rest with that density [kg].
@@ -117,8 +123,11 @@ void lay(const std::vector<SphericalState>& states, bool exact, scene::Scene& sc
       field->kinetic_energy += part.share * part.whole().kinetic_energy;
       field->internal_energy += part.share * part.internal_energy();
     }
-    field->mass = whole ? of_layers : rest_mass(body, rest, scene);
-    field->internal_energy += (field->mass - of_layers) * rest_energy(body, rest);
+    const bool left = std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return has_left(body, part, scene); });
+    if (!left) {
+      field->mass = whole ? of_layers : rest_mass(body, rest, scene);
+      field->internal_energy += (field->mass - of_layers) * rest_energy(body, rest);
+    }
     field->exact = exact;
     body.start = field;
     body.burn.reset();  // it has burned

@@ -24,8 +24,9 @@ std::optional<double> kept_share(const scene::Scene& scene, const Vec3& center);
 
 /// Gives the bodies of the scene the states as their starts: mass and energy of a body are those of its layers and of its rest,
 /// `exact` as a StartField is. Contacts between layers grow, in the shapes of all bodies, to where they are now; charges have
-/// burned. The balls up to the fronts must not meet: each place takes the state of the ball that it lies deepest in. The flows
-/// are those of a uniform medium; a liquid with a `level` gets its column's pressure beyond that on top.
+/// burned. A body that a wave has left through a radiating face takes means of the states as they are: what it still has of the
+/// sums is not known. The balls up to the fronts must not meet: each place takes the state of the ball that it lies deepest in.
+/// The flows are those of a uniform medium; a liquid with a `level` gets its column's pressure beyond that on top.
 void lay(const std::vector<SphericalState>& states, bool exact, scene::Scene& scene);
 
 }  // namespace undex::run

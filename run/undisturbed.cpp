@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/opened.hpp"
 #include "scene/structure_shape.hpp"
 
 namespace undex::run {
@@ -12,11 +13,15 @@ bool same_wall(const sph::Wall& one, const sph::Wall& other) {
   return same_shape(one.container, other.container) && one.faces == other.faces;
 }
 
-/// What the first scene has and the second has not.
-void add_of(const scene::Scene& scene, const scene::Scene& other, const std::string& whose, std::vector<Undisturbed>& found) {
+/// What the first scene has and the second has not. What leaves the scene that is laid over through radiating faces stays what it
+/// is in the donor's larger water; what lies beyond a donor's is not known.
+void add_of(const scene::Scene& scene, const scene::Scene& other, const std::string& whose, bool is_donor,
+            std::vector<Undisturbed>& found) {
   const int dimension = scene.fluid.dimension;
   const auto surface = [&](const std::string& name, const Primitive& shape) {
-    found.push_back({name + whose, [=](const Vec3& x) { return std::abs(signed_distance(shape, x, dimension)); }});
+    const Primitive kept = is_donor ? shape : scene::without_radiating_faces(shape, scene.fluid.walls);
+    if (signed_distance(kept, middle(shape, dimension), dimension) > -0.5 * scene::endless)
+      found.push_back({name + whose, [=](const Vec3& x) { return std::abs(signed_distance(kept, x, dimension)); }});
   };
   for (const sph::Wall& wall : scene.fluid.walls)
     if (std::none_of(other.fluid.walls.begin(), other.fluid.walls.end(), [&](const auto& one) { return same_wall(wall, one); }))
@@ -65,8 +70,8 @@ bool same_shape(const Shape& one, const Shape& other) {
 
 std::vector<Undisturbed> not_shared_by(const scene::Scene& scene, const scene::Scene& donor) {
   std::vector<Undisturbed> found;
-  add_of(scene, donor, "", found);
-  add_of(donor, scene, " of the donor", found);
+  add_of(scene, donor, "", false, found);
+  add_of(donor, scene, " of the donor", true, found);
   return found;
 }
 

@@ -19,6 +19,7 @@ struct Undisturbed {
 bool same_shape(const Shape& one, const Shape& other);
 
 /// Walls, bodies of fluid and surfaces of theirs that only one of the scenes has; structures, solids and rigid bodies of either.
+/// Radiating faces of the scene are none of them.
 std::vector<Undisturbed> not_shared_by(const scene::Scene& scene, const scene::Scene& donor);
 
 }  // namespace undex::run

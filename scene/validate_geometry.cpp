@@ -1,4 +1,5 @@
 // Geometry of bodies, solids and walls: extents, subtractions, overlaps, containers.
+#include "scene/opened.hpp"
 #include "scene/validator.hpp"
 
 namespace undex::scene {
@@ -73,46 +74,6 @@ void Validator::overlaps() {
   }
 }
 
-namespace {
-
-/// The container, without end where its faces are open.
-Primitive opened(const sph::Wall& wall) {
-  const auto open = [&](const std::string& face) {
-    const auto found = wall.faces.find(face);
-    return found != wall.faces.end() && found->second == sph::FaceCondition::open;
-  };
-  constexpr double far = 1e6;
-  if (const auto* box = std::get_if<Box>(&wall.container)) {
-    Box larger = *box;
-    for (int a = 0; a < 3; ++a) {
-      if (open(std::string(1, "xyz"[a]) + "_low")) larger.low[a] = -far;
-      if (open(std::string(1, "xyz"[a]) + "_high")) larger.high[a] = far;
-    }
-    return larger;
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&wall.container))
-    return Sphere{sphere->center, open("side") ? far : sphere->radius};
-  if (const auto* cone = std::get_if<Cone>(&wall.container)) {
-    // As long again, but not beyond its tip.
-    const double length = cone->high - cone->low, wider = cone->high_radius - cone->low_radius;
-    const auto further = [&](double radius, double by) { return by < 0 ? std::min(length, -radius / by * length) : length; };
-    Cone larger = *cone;
-    if (open("low")) larger.low -= further(cone->low_radius, -wider);
-    if (open("high")) larger.high += further(cone->high_radius, wider);
-    larger.low_radius = std::max(0.0, cone->radius_at(larger.low));
-    larger.high_radius = std::max(0.0, cone->radius_at(larger.high));
-    if (open("side")) larger.low_radius = larger.high_radius = far;
-    return larger;
-  }
-  Cylinder larger = std::get<Cylinder>(wall.container);
-  if (open("side")) larger.radius = far;
-  if (open("low")) larger.low = -far;
-  if (open("high")) larger.high = far;
-  return larger;
-}
-
-}  // namespace
-
 /// Where the images in a cone's side are not those of an exact mirror: at a symmetry plane that it meets, in its tip.
 void Validator::conical(const Cone& cone, const std::string& path, const Node& node) {
   if (fluid_.symmetry.axis[static_cast<std::size_t>(cone.axis)] && cone.low <= 0)
@@ -145,7 +106,11 @@ void Validator::walls() {
     std::optional<Vec3> out;
     bool contained = false;
     for (const sph::Wall& wall : fluid_.walls) {
-      const Shape container{opened(wall), {}};
+      const auto open = [&](const std::string& face) {
+        const auto found = wall.faces.find(face);
+        return found != wall.faces.end() && found->second == sph::FaceCondition::open;
+      };
+      const Shape container{opened(wall.container, open), {}};
       const auto at =
           find_in_both(inside(body.shape, dimension_), outside(container, dimension_), window, tolerance(), dimension_);
       if (!at) contained = true;

@@ -1,4 +1,5 @@
 // Times that a run would never come to the end of: steps, snapshots and rows without number, and a start that comes too late.
+#include "scene/opened.hpp"
 #include "scene/validator.hpp"
 
 namespace undex::scene {
@@ -75,7 +76,8 @@ void Validator::start_time() {
       });
       const double sound = around ? sound_at_rest(medium) : 0.0;
       if (!(sound > 0)) continue;
-      const double obstacle = -signed_distance(medium.shape.base, sphere->center, dimension_);
+      const double obstacle =
+          -signed_distance(without_radiating_faces(medium.shape.base, fluid_.walls), sphere->center, dimension_);
       const double burning = charge.burn && !charge.burn->instantaneous ? sphere->radius / charge.burn->D : 0.0;
       const double latest = burning + std::max(0.0, obstacle - sphere->radius) / sound;
       if (time > latest)

@@ -22,7 +22,7 @@ try:
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     import numpy as np
-    from matplotlib.collections import EllipseCollection, PolyCollection
+    from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 except ImportError as error:
     sys.exit(f"plot.py: {error}. Run scripts/install_packages.sh, and this script with /usr/bin/python3 "
              f"(this is {sys.executable}).")
@@ -299,9 +299,9 @@ def mirrored(points, values, axes, plane_axes):
     return points, values
 
 
-def structure_sections(folder):
-    """Times and files of the structure's snapshots, by the index."""
-    index = folder / "structure.hdf.series"
+def structure_sections(folder, stem="structure"):
+    """Times and files of the snapshots of the structure, or of the obstacles' surfaces, by the index."""
+    index = folder / f"{stem}.hdf.series"
     if not index.is_file():
         return []
     return [(entry["time"], folder / entry["name"]) for entry in json.loads(index.read_text())["files"]]
@@ -339,6 +339,37 @@ def structure_polygons(path, normal, plane_axes, mirror):
             sign[k] = -1
             polygons += [polygon * sign for polygon in polygons]
     return polygons
+
+
+def surface_segments(path, normal, plane_axes, mirror):
+    """What the plane through the origin cuts of a surface's faces, as segments in the plane; of segments all."""
+    import h5py
+
+    with h5py.File(path) as file:
+        points = file["VTKHDF/Points"][:].astype(float)
+        offsets = file["VTKHDF/Offsets"][:]
+        faces = np.split(file["VTKHDF/Connectivity"][:], offsets[1:-1])
+    height = points[:, normal]
+    spans = [np.ptp(height[face]) for face in faces if len(face) == 4]
+    level = 1e-3 * np.max(spans) if spans else 0.0  # on a symmetry plane the first faces only touch it: cut a little way in
+    segments = []
+    for face in faces:
+        if len(face) == 2:
+            segments.append(points[face][:, plane_axes])
+            continue
+        a, b = face, np.roll(face, -1)
+        crossed = (height[a] <= level) != (height[b] <= level)
+        if crossed.sum() != 2:
+            continue
+        a, b = a[crossed], b[crossed]
+        share = ((level - height[a]) / (height[b] - height[a]))[:, None]
+        segments.append((points[a] + share * (points[b] - points[a]))[:, plane_axes])
+    for k, axis in enumerate(plane_axes):
+        if axis in mirror:
+            sign = np.ones(2)
+            sign[k] = -1
+            segments += [segment * sign for segment in segments]
+    return segments
 
 
 def particle_sizes(step, spacing, count, dimension=3):
@@ -466,9 +497,10 @@ def plot_mid_plane(run, wanted_us):
         if section.dimension < 2:
             return plot_profiles(run, file, steps, times, wanted_us)
         structure = structure_sections(run.folder / "fields")
+        obstacles = structure_sections(run.folder / "fields", "obstacles")
         chosen = nearest(times, [1e-6 * t for t in wanted_us])
         figure, axes = section.panels(len(chosen), float(section.extent[section.across] / section.extent[section.length]))
-        grey = ""
+        grey = lines = ""
         for axis, i in zip(axes, chosen):
             step = file[steps[i]]
             if "pressure" not in step:
@@ -489,6 +521,13 @@ def plot_mid_plane(run, wanted_us):
                     axis.add_collection(PolyCollection(polygons, facecolors="0.35", edgecolors="0.2", linewidths=0.2))
                     points = np.concatenate([points] + [1e-3 * p for p in polygons])
                     grey = "; grey: structure"
+            if obstacles:
+                when, surface = min(obstacles, key=lambda entry: abs(entry[0] - times[i]))
+                if abs(when - times[i]) < 1e-6 and surface.is_file():
+                    segments = [1e3 * s for s in surface_segments(surface, section.normal, section.axes, section.mirror)]
+                    axis.add_collection(LineCollection(segments, colors="black", linewidths=1.0))
+                    points = np.concatenate([points] + [1e-3 * s for s in segments])
+                    lines = "; black: obstacles"
             if (run.folder / "fields/solids.h5part").is_file():
                 solids, solid_steps, solid_times = read_snapshots(run.folder / "fields/solids.h5part")
                 with solids:
@@ -502,7 +541,7 @@ def plot_mid_plane(run, wanted_us):
             section.frame(axis, points.min(axis=0), points.max(axis=0), times[i])
             figure.colorbar(shown, ax=axis, aspect=15, pad=0.01).ax.tick_params(labelsize=7)
         figure.suptitle(f"{run.title()}\npressure [MPa] in the plane {AXES[section.normal]} = 0 ({AXES[section.length]} to the "
-                        f"right, mm); white: cavitated{grey}", fontsize=10)
+                        f"right, mm); white: cavitated{grey}{lines}", fontsize=10)
     return figure
 
 

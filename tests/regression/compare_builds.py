@@ -25,6 +25,7 @@ FURTHER = {
     "al_sphere_impact/experiment.toml": IMPACT,
     "al_sphere_impact/full.toml": IMPACT,
     "al_tube_fem/experiment.toml": {"resolution.spacing": 0.002, "end_time": 60e-6},
+    "bleich_sandler/axisymmetric.toml": {"resolution.spacing": 0.1, "end_time": 2e-3},
     "bleich_sandler/case.toml": {"resolution.spacing": 0.1, "end_time": 2e-3},
     "cavitating_tube/column.toml": {"resolution.spacing": 0.004, "end_time": 0.1e-3},
     "colliding_rings/updated.toml": {"resolution.spacing": 0.002, "end_time": 1e-3},

@@ -33,6 +33,8 @@ TESTS = {
                                                                                             "energy_error": 0.015}),
     "bleich_sandler": ("bleich_sandler", {}, {"velocity_l1": 0.017, "displacement_l1": 0.02, "energy_error": 0.025,
                                               "interface_impulse_error": 1e-12}),
+    "bleich_sandler_disc": ("bleich_sandler/axisymmetric.toml", {}, {"velocity_l1": 0.017, "displacement_l1": 0.02, "energy_error": 0.025,
+                                                                     "interface_impulse_error": 1e-12}),
     "free_field": ("free_field", {}, {"l1_pressure_r4": 0.034, "l1_pressure_r8": 0.039, "energy_error": 0.0025}),
     "free_field_spherical": ("free_field/spherical.toml", {}, {"l1_pressure_r4": 0.026, "l1_pressure_r8": 0.035,
                                                                "energy_error": 0.004}),

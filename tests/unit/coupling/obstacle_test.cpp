@@ -88,6 +88,50 @@ TEST(Obstacles, APistonDrivesTheExactShockInOneDimension) {
   }
 }
 
+/// Water under one pressure shows it on every face of a box's surface, those at edges and corners included; in a plane and in
+/// a meridian too. The surface moves with its body.
+TEST(Obstacles, SurfacesShowPlacesMotionAndPressure) {
+  struct Kind {
+    int dimension;
+    bool ring;
+    Primitive shape, extent;
+  };
+  const Box box{{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}, sea{{-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}};
+  for (const Kind& kind : {Kind{3, false, box, sea}, {2, false, box, sea}, {2, true, box, sea}}) {
+    Obstacle one = obstacle_of(kind.shape, Motion::prescribed);
+    one.direction = Vec3::UnitY();
+    one.time = {0.0};
+    one.speed = {2.0};
+    sph::Settings s = water(kind.dimension, 0.025, kind.extent, {one});
+    s.bodies[0].pressure = 1e6;
+    s.axisymmetric = kind.ring;
+    s.symmetry.axis[0] = kind.ring;
+    std::vector<std::string> faces{"x_low", "x_high", "y_low", "y_high"};
+    if (kind.dimension == 3) faces.insert(faces.end(), {"z_low", "z_high"});
+    s.walls = {wall_of(kind.extent, faces)};
+    Scene scene(s, {one});
+    scene.flow.step_limit();  // forces are found
+    const BodySnapshot start = scene.flow.snapshot();
+    ASSERT_EQ(start.position.size(), scene.body().surface().nodes.size());
+    ASSERT_EQ(start.cells.size(), scene.body().surface().faces.size());
+    ASSERT_EQ(start.of_cells.size(), 2u);
+    const std::vector<double>& pressure = start.of_cells[0].values;
+    const double close = kind.ring ? 0.15e6 : 0.1e6;  // of the rings on the axis
+    double least = 1e300, most = 0;
+    for (const double p : pressure) least = std::min(least, p), most = std::max(most, p);
+    EXPECT_NEAR(least, 1e6, close) << kind.dimension << kind.ring;
+    EXPECT_NEAR(most, 1e6, close) << kind.dimension << kind.ring;
+    EXPECT_EQ(start.of_cells[1].values, std::vector<double>(start.cells.size(), 0.0));
+    scene.run(1e-6);
+    const BodySnapshot later = scene.flow.snapshot();
+    for (std::size_t n = 0; n < later.position.size(); ++n) {
+      EXPECT_NEAR(later.position[n][1] - start.position[n][1], 2e-6, 1e-15);
+      EXPECT_NEAR(later.of_points[0].values[3 * n + 1], 2e-6, 1e-15);
+      EXPECT_EQ(later.of_points[1].values[3 * n + 1], 2.0);
+    }
+  }
+}
+
 TEST(Obstacles, WaterAndAFreeBodyKeepMomentumAndEnergy) {
   Obstacle ball = obstacle_of(Sphere{{0, 0, 0}, 0.1}, Motion::free, 500);
   ball.velocity = Vec3(3, 1, -2);

@@ -228,6 +228,18 @@ TEST(StructureFields, MeridiansAreQuadrangles) {
   EXPECT_EQ(in.values("VTKHDF/Connectivity"), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
+/// Faces of surfaces: quadrangles, and in a plane segments.
+TEST(StructureFields, FacesInAPlaneAreSegments) {
+  const TemporaryFolder folder;
+  TwoCells mesh;
+  mesh.cells = {{0, 1, 1, 0, 0, 1, 1, 0}, {4, 5, 6, 7, 4, 5, 6, 7}};
+  StructureFields(folder.path, "obstacles").write(0.0, mesh.snapshot());
+  const Reader in(folder.path / "obstacles_00000.hdf");
+  EXPECT_EQ(in.values("VTKHDF/Offsets"), (std::vector<double>{0, 2, 6}));
+  EXPECT_EQ(in.values("VTKHDF/Types"), (std::vector<double>{3, 9}));
+  EXPECT_EQ(in.values("VTKHDF/Connectivity"), (std::vector<double>{0, 1, 4, 5, 6, 7}));
+}
+
 TEST(StructureFields, IndexListsEverySnapshotWithItsTime) {
   const TemporaryFolder folder;
   const TwoCells mesh;

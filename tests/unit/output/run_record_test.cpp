@@ -48,6 +48,40 @@ TEST(RunRecord, CoupledRunsTellTheInterfaceError) {
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(record))["interface_impulse_error"], 1e-15);
 }
 
+TEST(RunRecord, ObstaclesReadBack) {
+  const TemporaryFolder folder;
+  RunRecord record = sample();
+  EXPECT_FALSE(nlohmann::json::parse(to_json(record)).contains("obstacles"));
+  record.obstacles = {{.name = "ball",
+                       .motion = "free",
+                       .mass = 2.5,
+                       .displacement = {1e-3, 2e-3},
+                       .rotation = {0.5},
+                       .velocity = {3, std::nan("")},
+                       .spin = {-7},
+                       .impulse = {10, 20}},
+                      {.name = "rudder",
+                       .motion = "fixed",
+                       .mass = {},
+                       .displacement = {0, 0},
+                       .rotation = {0},
+                       .velocity = {0, 0},
+                       .spin = {0},
+                       .impulse = {1, 2}}};
+  write_summary(folder.path / "summary.json", record);
+  const RunRecord read = read_summary(folder.path / "summary.json");
+  ASSERT_EQ(read.obstacles.size(), 2u);
+  EXPECT_EQ(read.obstacles[0].name, "ball");
+  EXPECT_EQ(read.obstacles[0].motion, "free");
+  EXPECT_EQ(read.obstacles[0].mass, 2.5);
+  EXPECT_EQ(read.obstacles[0].displacement, (std::vector<double>{1e-3, 2e-3}));
+  EXPECT_EQ(read.obstacles[0].velocity[0], 3);
+  EXPECT_TRUE(std::isnan(read.obstacles[0].velocity[1]));
+  EXPECT_EQ(read.obstacles[0].spin, std::vector<double>{-7});
+  EXPECT_FALSE(read.obstacles[1].mass);
+  EXPECT_EQ(read.obstacles[1].impulse, (std::vector<double>{1, 2}));
+}
+
 TEST(RunRecord, WhatDidNotHappenIsNull) {
   const auto json = nlohmann::json::parse(to_json(sample()));
   EXPECT_TRUE(json["metrics"]["collapse_s"].is_null());

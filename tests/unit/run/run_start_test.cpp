@@ -186,6 +186,32 @@ TEST(RunStart, GoesUpToWhatTheDonorLacks) {
   EXPECT_NEAR(receiver.fluid()->at(Vec3(0, 0, -0.028)).pressure, 1e5, 1e3);
 }
 
+/// A radiating tank of the scene's own is no obstacle: what has left stays what it is in the donor's larger water. A donor's is
+/// one, where the scene's water goes on beyond it.
+TEST(RunStart, ARadiatingTankIsNoObstacle) {
+  const Folder folder;
+  std::string narrow = in_space(0.003, "[\"x\", \"y\"]"),
+              sea = ball(
+                  "end_time = 2e-5\n[resolution]\nfit = \"water\"\nspacing = 0.003\n"
+                  "[symmetry]\nplanes = [\"x\", \"y\"]\n",
+                  R"(shape = {type = "box", low = [-0.06, -0.06, -0.06], high = [0.06, 0.06, 0.06]})");
+  narrow += "condition = \"radiating\"\n";
+  const fs::path from = folder.file("sea.toml", sea), tank = folder.file("tank.toml", narrow);
+  const std::string laid = started(narrow, from, "1.6e-5");
+  scene::Scene scene = read_text(laid);
+  begin(scene);
+  EXPECT_EQ(scene.fluid.bodies[1].start->mass, 0.0);
+  Simulation receiver(scene), donor = run_of(sea, 1.6e-5);
+  EXPECT_NEAR(sums_of(receiver, 4)[0].mass / sums_of(donor, 4)[0].mass, 1.0, 1e-12);
+  const Vec3 x(0.018, 0.003, 0.004);
+  EXPECT_NEAR(receiver.fluid()->at(x).pressure / donor.fluid()->at(x).pressure, 1.0, 0.03);
+  run_to(receiver, 1.9e-5);
+  run_to(donor, 1.9e-5);
+  EXPECT_NEAR(receiver.fluid()->at(x).pressure / donor.fluid()->at(x).pressure, 1.0, 0.1);
+  scene::Scene other = read_text(started(sea, tank, "1.6e-5"));
+  EXPECT_THROW(begin(other), SceneError);
+}
+
 /// A donor that is given as a folder goes on from its checkpoint, to the same digits as one that is given as a scene.
 TEST(RunStart, AFolderAndASceneGiveTheSameDigits) {
   const Folder folder;

@@ -1,7 +1,9 @@
 // What a run may begin from: spherical starts, and plane waves under gravity.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "run/plane_wave_start.hpp"
@@ -202,6 +204,98 @@ TEST(SphericalStart, RefusesChargesWhoseWavesMeetTooSoon) {
   says({{"start.time", "1.5e-5"}}, "the waves of two charges have met");
   says({{"start.body", "\"upper\""}}, "'lower' begins at");
   says({{"bodies.upper.shape.center", "[0, 0, 0]"}, {"bodies.lower.shape.center", "[0, 0, -0.022]"}}, "too near to the charge");
+}
+
+/// A ball of gas in water to `wide` about it and to `top` above it, closed as `walls` say; in a quarter.
+std::string ball_in_a_box(double wide, double top, const std::string& walls) {
+  const std::string w = std::to_string(wide), box = "shape = {type = \"box\", low = [-" + w + ", -" + w + ", -" + w +
+                                                    "], high = [" + w + ", " + w + ", " + std::to_string(top) + "]}\n";
+  return R"(
+end_time = 1e-4
+threads = 1
+[resolution]
+spacing = 0.003
+origin = [0, 0, 0]
+[symmetry]
+planes = ["x", "y"]
+[start]
+kind = "spherical"
+[[bodies]]
+name = "gas"
+shape = {type = "sphere", radius = 0.009}
+material = {law = "ideal_gas", rho0 = 1000, gamma = 2}
+energy = 1e6
+[[bodies]]
+name = "water"
+subtract = ["gas"]
+material = "water-tait"
+pressure = 1e5
+)" + box +
+         (walls.empty() ? "" : "[[walls]]\nname = \"sea\"\n" + box + walls);
+}
+const std::string rigid_ball = R"(
+[[obstacles]]
+name = "ball"
+shape = {type = "sphere", center = [0, 0, 0.054], radius = 0.009}
+)";
+
+/// The largest difference of pressure in two simulations at a place, and the largest pressure.
+std::pair<double, double> difference(Simulation& one, Simulation& other, const Vec3& x, double end) {
+  double most = 0, peak = 0;
+  for (double t = one.time(); t < end; t += 5e-7) {
+    run_to(one, t);
+    run_to(other, t);
+    const double p = one.fluid()->at(x).pressure, q = other.fluid()->at(x).pressure;
+    most = std::max(most, std::abs(p - q));
+    peak = std::max(peak, q);
+  }
+  return {most, peak};
+}
+
+/// A radiating face ends no flow: the particles take over when the wave nears the ball, long after it has left at the sides.
+TEST(SphericalStart, RadiatingFacesAreNoObstacles) {
+  scene::Scene box = read_text(ball_in_a_box(0.03, 0.075, "condition = \"radiating\"\n") + rigid_ball),
+               sea = read_text(ball_in_a_box(0.075, 0.075, "") + rigid_ball);
+  const std::string report = begin_spherically(box);
+  EXPECT_NE(report.find("of 45.00 mm"), std::string::npos) << report;
+  begin_spherically(sea);
+  EXPECT_NEAR(box.fluid.start_time / sea.fluid.start_time, 1.0, 1e-9);
+  EXPECT_EQ(box.fluid.bodies[1].start->mass, 0.0);  // the wave has left
+  EXPECT_GT(sea.fluid.bodies[1].start->mass, 0.0);
+  Simulation here(box), there(sea);
+  const auto before_ball = difference(here, there, Vec3(0.006, 0.006, 0.03), here.time() + 1.5e-5);
+  RecordProperty("share_of_the_peak", std::to_string(before_ball.first / before_ball.second));
+  EXPECT_LT(before_ball.first, 0.03 * before_ball.second);
+  EXPECT_LT(std::abs(here.energy().error()), 5e-3);
+}
+
+/// With start.time as late as one likes, as long as the gas is inside; without one when the wave nears the face.
+TEST(SphericalStart, TheWaveMayHaveLeft) {
+  const std::string radiating = ball_in_a_box(0.03, 0.06, "condition = \"radiating\"\n");
+  scene::Scene at_the_face = read_text(radiating);
+  begin_spherically(at_the_face);
+  EXPECT_LT(at_the_face.fluid.start_time, 0.02 / 1500);
+  EXPECT_GT(at_the_face.fluid.bodies[1].start->mass, 0.0);
+  const std::vector<scene::Override> late{{"start.time", "3e-5"}};
+  scene::Scene box = read_text(radiating, late), sea = read_text(ball_in_a_box(0.09, 0.09, ""), late);
+  begin_spherically(box);
+  begin_spherically(sea);
+  EXPECT_EQ(box.fluid.bodies[1].start->mass, 0.0);
+  EXPECT_NEAR(box.fluid.bodies[0].start->mass / sea.fluid.bodies[0].start->mass, 1.0, 1e-12);
+  Simulation here(box), there(sea);
+  for (const Vec3& x : {Vec3(0.021, 0.003, 0.003), Vec3(0.003, 0.003, 0.045)}) {
+    EXPECT_NEAR(here.fluid()->at(x).pressure / there.fluid()->at(x).pressure, 1.0, 0.01);
+    EXPECT_NEAR(here.fluid()->at(x).velocity.norm() / there.fluid()->at(x).velocity.norm(), 1.0, 0.01);
+  }
+  const auto [most, peak] = difference(here, there, Vec3(0.012, 0.012, 0.03), 4.5e-5);
+  RecordProperty("share_of_the_peak", std::to_string(most / peak));
+  EXPECT_LT(most, 0.05 * peak);
+  const auto says = [&](const std::string& text, const std::vector<scene::Override>& overrides, const char* what) {
+    EXPECT_NE(refusal(text, overrides).find(what), std::string::npos) << refusal(text, overrides);
+  };
+  says(radiating, {{"bodies.gas.shape.center", "[0, 0, -0.015]"}}, "radiating face is too near to the charge");
+  EXPECT_THROW(read_text(ball_in_a_box(0.03, 0.06, "faces = {x_high = \"open\"}\ncondition = \"radiating\"\n"), late),
+               SceneError);
 }
 
 /// Twice as far costs a fixed number of steps more, not four times the work.

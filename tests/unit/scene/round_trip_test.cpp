@@ -59,6 +59,45 @@ pressure = 1e6
 level = [0, 1.5]
 )";
 
+const std::string radiating_sea = R"(end_time = 1e-4
+gravity = [0, 0, -9.81]
+[resolution]
+spacing = 0.01
+[symmetry]
+planes = ["x"]
+[surroundings]
+pressure = 9e4
+[[bodies]]
+name = "gas"
+shape = {type = "sphere", center = [0, 0.02, -0.2], radius = 0.03}
+material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
+energy = 5e5
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [-0.2, -0.2, -0.4], high = [0.2, 0.2, 0]}
+subtract = ["gas"]
+material = "water-tait"
+pressure = 9e4
+level = [0, 0, 0]
+[[walls]]
+name = "sea"
+shape = {type = "box", low = [-0.2, -0.2, -0.4], high = [0.2, 0.2, 0]}
+condition = "radiating"
+source = [0, 0.01, -0.3]
+faces = {z_high = "open", z_low = "free_slip"}
+[[obstacles]]
+name = "rudder"
+shape = {type = "cone", axis = "z", center = [0, 0.14, 0], low_radius = 0.03, high_radius = 0.02, low = -0.3, high = -0.2}
+[[obstacles]]
+name = "ring"
+shape = {type = "tube", axis = "z", center = [0, -0.12, 0], inner_radius = 0.03, outer_radius = 0.06, low = -0.3, high = -0.2}
+motion = "free"
+mass = 2.5
+inertia = [1, 2, 2.5, 0, 0, 0.3]
+fixed = ["rx"]
+velocity = [0, 1, 0]
+)";
+
 /// Scenes that between them use every kind of table, with no value at its default.
 const std::string charge_in_a_funnel = R"(end_time = 1e-4
 [resolution]
@@ -313,6 +352,7 @@ probe = "plate"
                                     imploding,
                                     charge_in_a_funnel,
                                     pool,
+                                    radiating_sea,
                                     R"(title = "rigid bodies"
 end_time = 1e-4
 [resolution]
@@ -384,6 +424,40 @@ TEST(RoundTrip, KeepsGravityLevelsAndRotation) {
   EXPECT_EQ(scene.fluid.gravity, Vec3(1, -9.81, 0));
   EXPECT_EQ(scene.fluid.lattice.rotation, Vec3(0, 0, 17));
   EXPECT_EQ(scene.fluid.bodies[0].level, Vec3(0, 1.5, 0));
+}
+
+TEST(RoundTrip, KeepsSurroundingsRadiatingFacesAndObstacles) {
+  const Scratch scratch;
+  const Scene scene = read(scratch.write(to_toml(read(scratch.write(radiating_sea))), "resolved.toml"));
+  EXPECT_EQ(scene.fluid.surroundings.pressure, 9e4);
+  ASSERT_EQ(scene.fluid.walls.size(), 1u);
+  const sph::Wall& sea = scene.fluid.walls[0];
+  EXPECT_EQ(sea.source, Vec3(0, 0.01, -0.3));
+  EXPECT_EQ(sea.faces.size(), 6u);
+  for (const auto& [face, condition] : sea.faces)
+    EXPECT_EQ(condition, face == "z_high"  ? sph::FaceCondition::open
+                         : face == "z_low" ? sph::FaceCondition::free_slip
+                                           : sph::FaceCondition::radiating)
+        << face;
+  ASSERT_EQ(scene.obstacles.size(), 2u);
+  const coupling::Obstacle &rudder = scene.obstacles[0], &ring = scene.obstacles[1];
+  EXPECT_EQ(rudder.motion, coupling::Motion::fixed);
+  EXPECT_EQ(std::get<Cone>(rudder.shape).center[1], 0.14);
+  EXPECT_EQ(std::get<Cone>(rudder.shape).high_radius, 0.02);
+  EXPECT_EQ(ring.motion, coupling::Motion::free);
+  EXPECT_EQ(std::get<TubeShape>(ring.shape).inner, 0.03);
+  EXPECT_EQ(ring.mass, 2.5);
+  EXPECT_EQ(ring.velocity, Vec3(0, 1, 0));
+  EXPECT_EQ(ring.inertia, (std::vector<double>{1, 2, 2.5, 0, 0, 0.3}));
+}
+
+/// The source that a wall has by itself, of the only charge, is written, and stays when it is read.
+TEST(RoundTrip, KeepsTheSourceThatWasFound) {
+  const Scratch scratch;
+  const Scene scene = read(scratch.write(with(radiating_sea, "source = [0, 0.01, -0.3]\n", ""))),
+              again = read(scratch.write(to_toml(scene), "resolved.toml"));
+  EXPECT_LT((scene.fluid.walls[0].source.value() - Vec3(0, 0.02, -0.2)).norm(), 1e-15);
+  EXPECT_EQ(again.fluid.walls[0].source, scene.fluid.walls[0].source);
 }
 
 TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
