@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -137,6 +138,19 @@ WallPoint SeenMirrors::point(const WallFoot& foot) const {
   // Beyond the centre of curvature in front images are as large as they may be, beyond that behind as small.
   const double ratio = here > 0.0 ? std::max(there / here, 1e-6) : 0.0;
   return {.foot = frame.foot, .normal = frame.normal, .velocity = velocity, .stretch = image_volume(ratio), .lead = ahead};
+}
+
+bool SeenMirrors::face_each_other(const WallFoot& a, const WallFoot& b) const {
+  const auto middle = [&](const WallFoot& foot) -> Vec3 {
+    const auto x = corners_of(walls_[foot.wall].faces[foot.face], walls_[foot.wall].position);
+    return 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  };
+  const auto normal = [&](const WallFoot& foot) -> Vec3 {
+    const auto x = corners_of(walls_[foot.wall].faces[foot.face], walls_[foot.wall].position);
+    return (x[2] - x[0]).cross(x[3] - x[1]);
+  };
+  const Vec3 way = middle(b) - middle(a);
+  return way.dot(normal(a)) < 0.0 && way.dot(normal(b)) > 0.0;
 }
 
 std::pair<int, double> layer_of(double distance, double spacing, int count) {

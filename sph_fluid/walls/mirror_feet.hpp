@@ -49,6 +49,8 @@ class SeenMirrors {
 
   BilinearPatch patch(int wall, int face) const;
   WallPoint point(const WallFoot& foot) const;
+  /// Do the faces of two feet stand before each other, as in a corner?
+  bool face_each_other(const WallFoot& a, const WallFoot& b) const;
 
  private:
   const std::vector<MirrorWall>& walls_;

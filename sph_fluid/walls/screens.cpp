@@ -12,8 +12,7 @@
 namespace undex::sph {
 namespace {
 
-constexpr double same = 1e-9;  // share of a way within which it meets walls at one place
-constexpr double soft = 0.1;   // in spacings: so far beside an edge a way is partly free
+constexpr double soft = 0.1;  // in spacings: so far beside an edge a way is partly free
 
 /// From the inside of the way a-b to the edge p-q [m], if that is less than `most`.
 std::optional<double> distance_between(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& along, double most) {
@@ -64,11 +63,7 @@ bool Way::is_free() const {
 }
 
 bool Way::enters(const Vec3& normal) const {
-  for (const Crossing& crossing : crossings) {
-    if (crossing.at - crossings[0].at >= same) break;
-    if (crossing.entering && crossing.normal.dot(normal) > alike) return true;
-  }
-  return false;
+  return first_wall([&](const Crossing& crossing) { return crossing.normal.dot(normal) > alike; });
 }
 
 double Way::graze(int sheet) const {
@@ -107,43 +102,9 @@ void Screens::clear() {
   member_.clear();
 }
 
-void Screens::add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces, const Settings& settings) {
-  // Copies have their corners the other way round, so that their normals are right: 0, 3, 2, 1.
-  std::vector<std::pair<std::array<Vec3, 4>, bool>> copies{{corner, false}};
-  const auto mirror_all = [&](auto image) {
-    for (std::size_t k = 0, count = copies.size(); k < count; ++k)
-      if (std::array<Vec3, 4> x = copies[k].first; image(x)) {
-        std::swap(x[1], x[3]);
-        copies.emplace_back(x, !copies[k].second);
-      }
-  };
-  const auto in_plane = [&](int axis, double at) {
-    mirror_all([&](std::array<Vec3, 4>& x) {
-      double nearest = 1e300, farthest = 0;
-      for (Vec3& c : x) {
-        nearest = std::min(nearest, std::abs(c[axis] - at));
-        farthest = std::max(farthest, std::abs(c[axis] - at));
-        c[axis] = 2.0 * at - c[axis];
-      }
-      return nearest <= reach_ && farthest >= 1e-9 * spacing_;
-    });
-  };
-  for (const SlipFaces::Round& wall : faces.round)
-    mirror_all([&](std::array<Vec3, 4>& x) {
-      for (Vec3& c : x) {
-        const auto image = image_in(wall, c, 2.0 * reach_, settings.dimension);
-        if (!image) return false;
-        c = image->place;
-      }
-      return true;
-    });
-  for (const SlipFaces::Pair& pair : faces.plane) {
-    if (pair.low > -1e299 && !pair.symmetric) in_plane(pair.axis, pair.low);
-    if (pair.high < 1e299) in_plane(pair.axis, pair.high);
-  }
-  for (int a = 0; a < 3; ++a)
-    if (settings.symmetry.axis[a]) in_plane(a, 0.0);
-  for (const auto& [x, turned] : copies) add_copy(x, turned, sheet, open);
+void Screens::add_face(const std::array<Vec3, 4>& corner, int sheet, unsigned open, const SlipFaces& faces,
+                       const Settings& settings) {
+  for (const FaceCopy& copy : copies_of(corner, faces, settings, reach_)) add_copy(copy, sheet, open);
 }
 
 void Screens::add_beyond(const std::array<Vec3, 4>& corner, int sheet, unsigned open, unsigned edges, const SlipFaces& faces,
@@ -165,7 +126,8 @@ void Screens::add_beyond(const std::array<Vec3, 4>& corner, int sheet, unsigned 
   }
 }
 
-void Screens::add_copy(const std::array<Vec3, 4>& x, bool turned, int sheet, unsigned open) {
+void Screens::add_copy(const FaceCopy& copy, int sheet, unsigned open) {
+  const std::array<Vec3, 4>& x = copy.corner;
   halve(x, [&](const Vec3& corner, const Vec3& along, const Vec3& across) {
     const Vec3 normal = along.cross(across);
     const double area = normal.norm();
@@ -183,7 +145,7 @@ void Screens::add_copy(const std::array<Vec3, 4>& x, bool turned, int sheet, uns
                           .plane = 0});
   });
   for (int e = 0; e < 4; ++e)
-    if (open >> (turned ? 3 - e : e) & 1) edges_.push_back({x[e], x[(e + 1) % 4] - x[e], sheet});
+    if (open >> (copy.turned ? 3 - e : e) & 1) edges_.push_back({x[e], x[(e + 1) % 4] - x[e], sheet});
 }
 
 /// Triangles of one plane stand together: a way that does not meet the plane meets none of them.
@@ -305,7 +267,7 @@ void tidy(std::vector<Way::Crossing>& crossings) {
   std::sort(crossings.begin(), crossings.end(), [](const Way::Crossing& p, const Way::Crossing& q) { return p.at < q.at; });
   // On the line between two triangles both have it.
   const auto last = std::unique(crossings.begin(), crossings.end(), [](const Way::Crossing& p, const Way::Crossing& q) {
-    return q.at - p.at < same && p.entering == q.entering && p.normal.dot(q.normal) > alike;
+    return q.at - p.at < Way::same && p.entering == q.entering && p.normal.dot(q.normal) > alike;
   });
   crossings.erase(last, crossings.end());
 }

@@ -9,6 +9,7 @@
 #include "core/shapes.hpp"
 #include "core/vector.hpp"
 #include "sph_fluid/settings.hpp"
+#include "sph_fluid/walls/face_copies.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_fluid/walls/thin_walls.hpp"
@@ -20,6 +21,8 @@ constexpr double alike = 0.3;
 
 /// What a straight way meets.
 struct Way {
+  static constexpr double same = 1e-9;  ///< share of a way within which it meets walls at one place
+
   struct Crossing {
     double at;  ///< share of the way
     bool entering;
@@ -37,7 +40,16 @@ struct Way {
   /// A wall that bulges into the way, and looks the same way where the way leaves it, hides nothing: its images stand as if it
   /// were plane.
   bool is_free() const;
-  /// Is the first wall, or through an edge one of the first, one that looks as `normal` does?
+  /// Does the first wall on the way, or through an edge one of the first, pass the test?
+  template <class Test>
+  bool first_wall(Test test) const {
+    for (const Crossing& crossing : crossings) {
+      if (crossing.at - crossings[0].at >= same) break;
+      if (crossing.entering && test(crossing)) return true;
+    }
+    return false;
+  }
+  /// Is it one that looks as `normal` does?
   bool enters(const Vec3& normal) const;
   /// Of the open edges of a sheet, or of all (-1).
   double graze(int sheet) const;
@@ -90,11 +102,11 @@ class Screens {
   std::size_t memory_bytes() const;
 
  private:
-  void add_face(std::array<Vec3, 4> corner, int sheet, unsigned open, const SlipFaces& faces, const Settings& settings);
+  void add_face(const std::array<Vec3, 4>& corner, int sheet, unsigned open, const SlipFaces& faces, const Settings& settings);
   /// Adds what goes on beyond edges of a face.
   void add_beyond(const std::array<Vec3, 4>& corner, int sheet, unsigned open, unsigned edges, const SlipFaces& faces,
                   const Settings& settings);
-  void add_copy(const std::array<Vec3, 4>& corner, bool turned, int sheet, unsigned open);
+  void add_copy(const FaceCopy& copy, int sheet, unsigned open);
   void sort_by_plane();
   void sort_by_place(int dimension);
   template <class Visit>

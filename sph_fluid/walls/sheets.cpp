@@ -71,12 +71,13 @@ Sheets::Sheets(std::span<const std::array<int, 4>> faces, std::span<const Vec3> 
       const Vec3 n = area_vector(faces[f], position).normalized();
       if (n.dot(area_vector(faces[g], position).normalized()) > smooth) {
         joined.join(f, g);
-      } else if (n.dot(middle(faces[g], position) - middle(faces[f], position)) > 0.0 || sides.size() > 2) {
-        for (const Side& side : {sides[0], sides[k]}) {
-          open_[side.face] |= 1u << side.edge;
-          sharp_[side.face] |= 1u << side.edge;
-        }
-        parted[nodes.first] = parted[nodes.second] = true;
+        continue;
+      }
+      parted[nodes.first] = parted[nodes.second] = true;
+      if (n.dot(middle(faces[g], position) - middle(faces[f], position)) <= 0.0 && sides.size() == 2) continue;
+      for (const Side& side : {sides[0], sides[k]}) {
+        open_[side.face] |= 1u << side.edge;
+        sharp_[side.face] |= 1u << side.edge;
       }
     }
   }

@@ -35,7 +35,7 @@ class Sheets {
   /// Bit e: there the wall goes on beyond the mesh.
   unsigned goes_on(int face) const { return goes_on_.empty() ? 0u : goes_on_[face]; }
 
-  /// Replaces normals at the corners of a face that lie on a sharp open edge: there they are those of the face's own sheet.
+  /// Replaces normals at the corners of a face that lie on an edge between sheets: there they are those of the face's own sheet.
   /// Of nodes on a symmetry plane they lie in it.
   void part_normals(int face, std::span<const std::array<int, 4>> faces, std::span<const Vec3> position,
                     std::array<Vec3, 4>& normal) const;
@@ -49,7 +49,7 @@ class Sheets {
   int count_ = 1;
   std::vector<int> sheet_;
   std::vector<unsigned> open_, sharp_, goes_on_;
-  std::vector<Corner> corners_;  // on sharp edges, sorted by face
+  std::vector<Corner> corners_;  // on edges between sheets, sorted by face
 };
 
 }  // namespace undex::sph

@@ -84,7 +84,10 @@ float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuest
   const Code its = dummies ? Code(many | edge) : images ? image_[j] : particle_[j];
   if (mine == 0 || its == 0) return mirror ? 0.0f : 1.0f;
   const Code a = mine & many, b = its & many;
-  if ((mine & its & edge) == 0 && a != many && b != many) return a == b ? 1.0f : 0.0f;
+  if (a != many && b != many) {
+    if (a == b && (mine & its & edge) == 0) return 1.0f;
+    if (a != b && ((mine | its) & edge) == 0) return 0.0f;
+  }
   if ((at - from).squaredNorm() > reach_ * reach_) return 0.0f;
   const unsigned axes = unsigned(question.mirror);
   if (images && images_[j].first < images_[j].last) return float(mirrored_share(from, at, j, axes, about(), way));
@@ -116,11 +119,17 @@ double Sight::mirrored_share(Vec3 from, Vec3 at, std::uint32_t j, unsigned axes,
     mirrors[k] = {thin_.sheet(glass.wall, glass.face), !is_thin(glass.wall), mirrored(glass.normal, axes),
                   mirrored(glass.shown, axes)};
   }
+  // Particles have images in all sheets of a plane: the way chooses.
+  const auto enters = [&](const Mirror& mirror) {
+    return way.first_wall([&](const Way::Crossing& crossing) {
+      return crossing.sheet == mirror.sheet && crossing.normal.dot(mirror.normal) > alike;
+    });
+  };
   // Where walls meet at right angles an image is the same in any order: the mirror that the way enters comes first.
   const auto sort_from = [&](int first) {
     for (int k = first; k < count; ++k) {
       const Mirror entered = mirrors[k];
-      if (!entered.thick && way.enters(entered.normal)) {
+      if (!entered.thick && enters(entered)) {
         const double plane = 0.5 * (entered.shown + (k > first ? mirrors[k - 1].shown : at)).dot(entered.normal);
         const auto across = [&](const Vec3& x) -> Vec3 { return x - 2.0 * (x.dot(entered.normal) - plane) * entered.normal; };
         for (int m = k; m > first; --m) {

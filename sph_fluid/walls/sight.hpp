@@ -49,10 +49,7 @@ struct SeenImage {
 
 class Sight {
  public:
-  /// Finds the thin walls where walls have moved since they were sought; `reach` [m] of pairs of liquid.
-  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing) {
-    thin_.look(walls, sheets, reach, spacing);
-  }
+  ThinWalls& walls() { return thin_; }
   bool empty() const { return thin_.empty(); }
   bool is_thin(int wall) const { return thin_.contain(wall); }
 

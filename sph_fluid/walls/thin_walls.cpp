@@ -7,6 +7,7 @@
 
 #include "core/surface.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
+#include "sph_fluid/walls/face_copies.hpp"
 #include "sph_fluid/walls/screens.hpp"
 
 namespace undex::sph {
@@ -41,34 +42,42 @@ class ThinWalls::Search {
     Vec3 middle, normal;
     double radius;  // of the ball about it [m]
     unsigned open, sharp, goes_on;
+    bool copy = false;  // across a symmetry plane or a container's face
   };
 
-  Search(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, std::span<const Vec3> position, double reach,
-         double spacing)
-      : through_(2.0 * reach - spacing), beside_(reach + 0.5 * spacing), spacing_(spacing) {
+  Search(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, std::span<const Vec3> position,
+         const SlipFaces& mirrors, const Settings& settings, double reach)
+      : through_(2.0 * reach - settings.lattice.spacing),
+        reach_(reach),
+        beside_(reach + 0.5 * settings.lattice.spacing),
+        spacing_(settings.lattice.spacing) {
     int sheet_count = 1;
     for (std::size_t w = 0; w < walls.size(); ++w) {
       const auto nodes = position.subspan(0, walls[w].position.size());
       position = position.subspan(nodes.size());
       for (int f = 0; f < int(walls[w].faces.size()) && !walls[w].radiates(); ++f) {
-        const auto corner = corners_of(walls[w].faces[f], nodes);
-        Face face{.wall = int(w),
-                  .face = f,
-                  .sheet = sheet_count + sheets[w].sheet(f),
-                  .corner = corner,
-                  .middle = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]),
-                  .normal = (corner[2] - corner[0]).cross(corner[3] - corner[1]).normalized(),
-                  .radius = 0,
-                  .open = sheets[w].open(f),
-                  .sharp = sheets[w].sharp(f),
-                  .goes_on = sheets[w].goes_on(f)};
         const bool segment = is_segment(walls[w].faces[f]);
-        for (Vec3 x : corner) {
-          if (segment) x[2] = face.middle[2];
-          face.radius = std::max(face.radius, (x - face.middle).norm());
+        const std::vector<FaceCopy> copies = copies_of(corners_of(walls[w].faces[f], nodes), mirrors, settings, 3.0 * reach);
+        for (const FaceCopy& copy : copies) {
+          const auto& corner = copy.corner;
+          Face face{.wall = int(w),
+                    .face = f,
+                    .sheet = sheet_count + sheets[w].sheet(f),
+                    .corner = corner,
+                    .middle = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]),
+                    .normal = (corner[2] - corner[0]).cross(corner[3] - corner[1]).normalized(),
+                    .radius = 0,
+                    .open = sheets[w].open(f),
+                    .sharp = sheets[w].sharp(f),
+                    .goes_on = sheets[w].goes_on(f),
+                    .copy = &copy != &copies.front()};
+          for (Vec3 x : corner) {
+            if (segment) x[2] = face.middle[2];
+            face.radius = std::max(face.radius, (x - face.middle).norm());
+          }
+          largest_ = std::max(largest_, face.radius);
+          faces_.push_back(face);
         }
-        largest_ = std::max(largest_, face.radius);
-        faces_.push_back(face);
       }
       sheet_count += sheets[w].count();
     }
@@ -93,22 +102,25 @@ class ThinWalls::Search {
     });
   }
 
-  /// Is it far from open edges, and can no other sheet be seen from it?
+  /// Is it far from open edges, and do particles that have their foot on it see none that has its on another sheet only?
   bool is_plain(const Face& me) const {
-    return !any_near(me.middle, through_ + me.radius + largest_, [&](const Face& it) {
+    const double apart = 3.0 * reach_;
+    return !any_near(me.middle, apart + me.radius + largest_, [&](const Face& it) {
       const Vec3 way = it.middle - me.middle;
-      if (way.norm() - me.radius - it.radius > through_) return false;
+      if (way.norm() - me.radius - it.radius > apart) return false;
+      // Behind a copy of its own stand particles of its own number.
       const double turned = it.normal.dot(me.normal);
       const bool behind = turned < -alike && way.dot(me.normal) > 0.0;
-      return (it.sheet == me.sheet ? turned < alike : !behind) || is_beside(me, it, it.open);
+      return (it.sheet == me.sheet ? turned < alike : !behind) || (!it.copy && is_beside(me, it, it.open));
     });
   }
 
   /// Does edge e stand on another wall?
   bool is_held(const Face& me, int e) const {
     const Vec3 middle = 0.5 * (me.corner[e] + me.corner[(e + 1) % 4]);
-    return any_near(middle, largest_ + spacing_,
-                    [&](const Face& it) { return it.wall != me.wall && lies_on(middle, it.corner, 1e-3 * spacing_); });
+    return any_near(middle, largest_ + spacing_, [&](const Face& it) {
+      return it.wall != me.wall && !it.copy && lies_on(middle, it.corner, 1e-3 * spacing_);
+    });
   }
 
  private:
@@ -129,7 +141,7 @@ class ThinWalls::Search {
 
   // Of two that meet through a wall one is an image, half a spacing less than a reach behind its mirror; the other stands half a
   // spacing before the wall's other face.
-  double through_, beside_, spacing_, largest_ = 0;
+  double through_, reach_, beside_, spacing_, largest_ = 0;
   std::vector<Face> faces_;
   CellList cells_;
 };
@@ -145,21 +157,23 @@ bool ThinWalls::have_moved(const std::vector<MirrorWall>& walls, double far) con
   return at != looked_at_.end();
 }
 
-void ThinWalls::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing) {
-  const bool moved = have_moved(walls, 0.25 * spacing);
+void ThinWalls::look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, const SlipFaces& mirrors,
+                     const Settings& settings, double reach) {
+  const bool moved = have_moved(walls, 0.25 * settings.lattice.spacing);
   if (!moved && sought_) return;
   sought_ = true;
   if (moved) {
     looked_at_.clear();
     for (const MirrorWall& wall : walls) looked_at_.insert(looked_at_.end(), wall.position.begin(), wall.position.end());
   }
-  const Search search(walls, sheets, looked_at_, reach, spacing);
+  const Search search(walls, sheets, looked_at_, mirrors, settings, reach);
   const std::span<const Search::Face> faces = search.faces();
   const int count = int(faces.size());
 
   std::vector<char> thin(walls.size(), 0);
 #pragma omp parallel for schedule(dynamic, 64)
   for (int k = 0; k < count; ++k) {
+    if (faces[k].copy) continue;
     char& mine = thin[faces[k].wall];
     char known;
 #pragma omp atomic read
@@ -184,7 +198,7 @@ void ThinWalls::look(const std::vector<MirrorWall>& walls, const std::vector<She
 #pragma omp parallel for schedule(dynamic, 64)
   for (int k = 0; k < count; ++k) {
     const Search::Face& face = faces[k];
-    if (!thin_[face.wall]) continue;
+    if (face.copy || !thin_[face.wall]) continue;
     plain_[face.wall][face.face] = search.is_plain(face);
     sheet_[face.wall][face.face] = face.sheet;
     goes_on_[face.wall][face.face] = face.goes_on;

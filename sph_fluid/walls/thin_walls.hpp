@@ -6,15 +6,18 @@
 
 #include "core/state.hpp"
 #include "core/vector.hpp"
+#include "sph_fluid/settings.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/sheets.hpp"
+#include "sph_fluid/walls/slip_faces.hpp"
 
 namespace undex::sph {
 
 class ThinWalls {
  public:
-  /// Finds them where walls have moved since they were sought; `reach` [m] of pairs of liquid.
-  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, double reach, double spacing);
+  /// Finds them where walls have moved since they were sought; `reach` [m] of pairs of liquid, `mirrors` of containers.
+  void look(const std::vector<MirrorWall>& walls, const std::vector<Sheets>& sheets, const SlipFaces& mirrors,
+            const Settings& settings, double reach);
 
   /// Is none thin?
   bool empty() const { return !any_; }

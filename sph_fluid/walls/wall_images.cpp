@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "sph_fluid/lattice.hpp"
@@ -61,7 +62,7 @@ void WallImages::build(const Settings& settings, const SlipFaces& faces, const s
                        const std::function<void(std::span<const WallFoot>)>& on_feet) {
   see_first_places(settings, walls);
   SeenMirrors seen(walls, footprints_, sheets_, settings.symmetry.axis, settings.lattice.spacing);
-  look(settings, walls);
+  look(settings, faces, walls);
   feet_ = find_feet(walls, seen, particles, ranges, 0.5 * settings.lattice.spacing,
                     [&](int wall, int face) { return open_edges(wall, face, sheets_[wall]); });
   if (on_feet) {
@@ -92,17 +93,17 @@ void WallImages::see_linings(const std::vector<LinedWall>& walls, std::span<cons
   }
 }
 
-void WallImages::look(const Settings& settings, const std::vector<MirrorWall>& walls) {
+void WallImages::look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls) {
   const double reach = reach_of_liquid(settings);
   if (linings_.empty()) {
-    sight_.look(walls, sheets_, reach, settings.lattice.spacing);
+    sight_.walls().look(walls, sheets_, faces, settings, reach);
     return;
   }
   while (lining_sheets_.size() < linings_.size()) {
     const MirrorWall& wall = linings_[lining_sheets_.size()];
     lining_sheets_.push_back(sheets_of(wall, settings));
   }
-  sight_.look(joined(walls, linings_), joined(sheets_, lining_sheets_), reach, settings.lattice.spacing);
+  sight_.walls().look(joined(walls, linings_), joined(sheets_, lining_sheets_), faces, settings, reach);
 }
 
 void WallImages::see_past_walls(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
@@ -277,7 +278,7 @@ void WallImages::add_images_between(const SeenMirrors& seen, double depth, const
       if (turned < -0.5) {
         std::size_t last = a;
         for (int k = 0; k < most && add(last, k % 2 == 0 ? second : first); ++k) last = images.size() - 1;
-      } else if (turned < 0.5 && a < b && foot.wall != other.wall) {
+      } else if (turned < 0.5 && a < b && (foot.wall != other.wall || seen.face_each_other(foot, other))) {
         add(a, second);
       }
     }
@@ -320,6 +321,15 @@ void WallImages::sort_from(std::uint32_t start, double width, CellList& cells) {
   }
 }
 
+namespace {
+
+/// Is a foot past one of these edges of its face?
+bool is_past(const PatchPoint& at, unsigned edges) {
+  return (edges & 1u && at.v < 0.0) || (edges & 2u && at.u > 1.0) || (edges & 4u && at.v > 1.0) || (edges & 8u && at.u < 0.0);
+}
+
+}  // namespace
+
 WallShare WallImages::put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
                                Particles& particles, PointLoads& received) const {
   const WallShare work = put_back_from_mirrors(settings, walls, particles, received);
@@ -350,6 +360,7 @@ WallShare WallImages::put_back_from_mirrors(const Settings& settings, const std:
     if (foot.at.distance > far) continue;                                // farther than a step can take it
     if (foot.at.distance <= 0.0 && sight_.is_thin(foot.wall)) continue;  // it stands on the other side
     if (!seen.patch(foot.wall, foot.face).project(place_of(particles, i), far, foot.at) || foot.at.distance >= 0.0) continue;
+    if (is_past(foot.at, sight_.is_thin(foot.wall) ? sheets_[foot.wall].open(foot.face) : 0u)) continue;  // beside the wall
     const WallPoint wall = seen.point(foot);
     const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);
     turn(particles, i, {wall.foot + foot.at.distance * wall.normal, wall.normal, wall.foot}, wall.velocity);
@@ -411,7 +422,7 @@ RingRow WallImages::ring_of(std::uint32_t c, const Particles& particles, const R
   if (r != particles.x[image.owner]) {
     // The area as the volume, but for the radius.
     const FluidRow& owner = particles.predicted[image.owner];
-    row.vz = owner.vz * (row.volume / owner.volume) * (particles.x[image.owner] / r);
+    row.vz = owner.vz * (row.volume / owner.volume) * (particles.x[image.owner] / std::abs(r));
     ring.a = rings.at(r, row.h).a;
   }
   return ring;

@@ -86,7 +86,7 @@ class WallImages {
   };
   void see_first_places(const Settings& settings, const std::vector<MirrorWall>& walls);
   /// Which walls are thin, the lined ones after the mirrors.
-  void look(const Settings& settings, const std::vector<MirrorWall>& walls);
+  void look(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls);
   void see_past_walls(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
                       const Particles& particles, std::span<const ParticleRange> ranges, double reach);
   /// Bit e: beyond edge e particles have feet, too.
