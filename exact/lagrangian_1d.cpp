@@ -159,6 +159,8 @@ Lagrangian1D::Lagrangian1D(int dimension, std::vector<Layer> layers, Boundary in
   pressures(0, n, 0.0, r_, u_, rho_, e_, p_, q_);
   inner_start_pressure_ = p_[0];
   outer_start_pressure_ = p_[n - 1];
+  if (inner_ == Boundary::radiating) inner_start_pressure_ -= rho_[0] * options_.gravity * (middle(0) - r_[0]);
+  if (outer_ == Boundary::radiating) outer_start_pressure_ += rho_[n - 1] * options_.gravity * (r_[n] - middle(n - 1));
   inner_start_density_ = rho_[0], outer_start_density_ = rho_[n - 1];
   inner_start_sound_ = c_[0], outer_start_sound_ = c_[n - 1];
   if (outer_ == Boundary::radiating && dimension_ > 1) flow_ = u_[n];
@@ -452,7 +454,11 @@ void Lagrangian1D::step(double dt) {
   if (!held_inner) boundary_work_ -= below * area_[0] * (0.5 * dt * (u_[0] + u_new_[0]));
   if (!held_outer && node_end > n) boundary_work_ += above * area_[n] * (0.5 * dt * (u_[n] + u_new_[n]));
   if (options_.gravity != 0.0)
-    for (int i = 0; i < node_end; ++i) boundary_work_ -= node_mass_[i] * options_.gravity * (0.5 * dt * (u_[i] + u_new_[i]));
+    for (int i = 0; i < node_end; ++i) {
+      const double work = node_mass_[i] * options_.gravity * (0.5 * dt * (u_[i] + u_new_[i]));
+      boundary_work_ -= work;
+      gravity_work_ += work;
+    }
   if (solid) {
     advance_deviators(cell_end, dt);
     warm(cell_end);
@@ -503,6 +509,7 @@ void Lagrangian1D::update_active() {
     if (const auto& burn = layers_[k].burn)
       for (const int cell : {blocks_[k].begin, blocks_[k].end - 1})
         if (burn->fraction(Vec3(start_middle_[cell], 0.0, 0.0), time_, 1.0) < 1.0) least = blocks_[k].end;
+  if (options_.gravity != 0.0) least = n;
   // Grown by two nodes a step at most: predictor and corrector each carry the news one node further.
   int node = steps_ == 0 ? n : std::min(active_ + 2, n);
   for (; node > least; --node) {
@@ -549,6 +556,7 @@ void Lagrangian1D::visit_state(StateVisitor& state) {
   state("time", time_);
   state("last step", last_step_);
   state("boundary work", boundary_work_);
+  state("gravity work", gravity_work_);
   state("flow", flow_);
   state("steps", steps_);
   state("active", active_);

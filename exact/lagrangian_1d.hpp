@@ -197,6 +197,8 @@ class Lagrangian1D {
   double total_energy() const { return kinetic_energy() + internal_energy(); }
   /// Work done on what lies outside of free and transmitting boundaries, and against gravity, since the start [J].
   double boundary_work() const { return boundary_work_; }
+  /// What of it gravity has done, as work on the mesh [J].
+  double gravity_work() const { return gravity_work_; }
   /// Share of the internal energy that is heat left by shocks in barotropic layers [J].
   double barotropic_heat() const;
 
@@ -301,7 +303,7 @@ class Lagrangian1D {
   Lagrangian1DOptions options_;
 
   // State.
-  double time_ = 0.0, last_step_ = 0.0, boundary_work_ = 0.0;
+  double time_ = 0.0, last_step_ = 0.0, boundary_work_ = 0.0, gravity_work_ = 0.0;
   long steps_ = 0;
   std::vector<double> r_, u_, e_;
   SolidCells solids_;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
+#include "run/rest.hpp"
 
 namespace undex::run {
 namespace {
@@ -36,7 +37,8 @@ void cut(const scene::Line& line, double spacing, bool followed, exact::Layer& l
   for (int i = 1; i < layer.cells; ++i) layer.places.push_back(layer.inner + ends[i] * (length / ends.back()));
 }
 
-exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spacing, bool followed, double inner, double outer) {
+exact::Layer layer_of(const sph::Body& body, const scene::Scene& scene, const scene::Line& line, double spacing, bool followed,
+                      double inner, double outer) {
   exact::Layer layer{.law = body.material.law, .inner = inner, .outer = outer};
   cut(line, spacing, followed, layer);
   layer.density = start_density(body);
@@ -46,11 +48,22 @@ exact::Layer layer_of(const sph::Body& body, const scene::Line& line, double spa
     layer.burn = body.burn;
     layer.burn->origin -= line.center;
   }
-  if (body.start)
-    layer.start = [field = body.start, width = (outer - inner) / layer.cells](double x) {
-      const sph::StartState state = field->state(Vec3(x, 0, 0), width);
-      return exact::StartPoint{state.density, state.velocity[0], state.energy};
-    };
+  if (!body.start && !body.level) return layer;
+  const bool hydrostatic = body.level && !scene.fluid.gravity.isZero();
+  layer.start = [&body, hydrostatic, at_rest = rest_of(body, scene), velocity = layer.velocity,
+                 width = (outer - inner) / layer.cells](double x) {
+    const Vec3 place(x, 0, 0);
+    const Rest rest = at_rest(place);
+    if (!body.start) return exact::StartPoint{rest.density, velocity, rest.energy};
+    const sph::StartState state = body.start->state(place, width);
+    exact::StartPoint point{state.density, state.velocity[0], state.energy};
+    if (!hydrostatic || !body.start->rest_pressure) return point;
+    // The column's pressure, beyond that of the wave's medium, comes on top of it.
+    const materials::FluidLaw& law = body.material.law;
+    const double wave = std::visit([&](const auto& each) { return each.evaluate(point.density, point.energy).pressure; }, law);
+    point.density = materials::density_at(law, wave + rest.pressure - *body.start->rest_pressure, point.energy);
+    return point;
+  };
   return layer;
 }
 
@@ -70,11 +83,12 @@ exact::Lagrangian1D mesh_of(const scene::Scene& scene, const scene::Line& line) 
   for (const scene::LineLayer& layer : line.layers)
     if (layer.is_solid) layers.push_back(layer_of(scene.solids.bodies[layer.index], line, spacing, layer.inner, layer.outer));
     else
-      layers.push_back(layer_of(scene.fluid.bodies[layer.index], line, spacing, follows && layer.inner >= line.core_high,
+      layers.push_back(layer_of(scene.fluid.bodies[layer.index], scene, line, spacing, follows && layer.inner >= line.core_high,
                                 layer.inner, layer.outer));
   options.held_pressure = line.held;
   if (follows) options.front_width = [line, spacing](double radius) { return line.front_width(radius, spacing); };
   options.outer_pressure = line.outside_pressure;
+  options.gravity = scene.fluid.gravity[0];
   options.inner_pressure = options.ambient = scene.fluid.surroundings.pressure;
   const auto end = [&](int which) {
     return line.closed[which]      ? exact::Boundary::rigid
@@ -173,8 +187,10 @@ const LineLedger& LineFlow::ledger() const {
   all.elastic -= all.plastic;
   all.dissipated = mesh_.barotropic_heat();
   all.internal -= all.dissipated;
-  if (line_.radiating[0] || line_.radiating[1]) all.radiated = mesh_.boundary_work();
-  else all.external = -mesh_.boundary_work();
+  all.gravity = mesh_.gravity_work();
+  const double given = mesh_.boundary_work() + all.gravity;
+  if (line_.radiating[0] || line_.radiating[1]) all.radiated = given;
+  else all.external = -given;
   ledger_ = all;
   return *ledger_;
 }

@@ -22,6 +22,7 @@ struct LineLedger {
   double kinetic = 0, internal = 0, dissipated = 0;    ///< of fluids; heat of shocks in barotropic ones
   double solid_kinetic = 0, elastic = 0, plastic = 0;  ///< of solids; what shocks left in them is in the elastic part
   double external = 0;                                 ///< work of pressure from outside
+  double gravity = 0;                                  ///< work of gravity
   double radiated = 0;                                 ///< what has left through radiating ends
   double mass = 0, momentum = 0;                       ///< [kg], along x in a plane [kg m/s]
   long step = -1;                                      ///< after which it was drawn up

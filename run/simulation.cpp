@@ -216,6 +216,7 @@ EnergyBalance Simulation::energy() const {
     e.elastic = copies_ * l.elastic;
     e.plastic = copies_ * l.plastic;
     (surrounded_ ? e.surroundings : e.external) = copies_ * l.external;
+    e.gravity = copies_ * l.gravity;
     e.radiated = copies_ * l.radiated;
   }
   if (fluid_) {

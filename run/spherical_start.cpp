@@ -89,9 +89,9 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
       .obstacle = obstacle_distance(scene, body, around, sphere),
       .exit = -signed_distance(scene::with_radiating_faces_only(around.shape.base, scene.fluid.walls), sphere.center, 3),
       .last_front = 0};
-  const double margin = reach + scene.fluid.lattice.spacing;
-  charge.last_front = charge.way() - margin;
-  if (std::min(charge.obstacle, charge.exit) - margin <= sphere.radius)
+  const auto last_front = [&](double way) { return way - reach - scene.fluid.lattice.spacing; };
+  charge.last_front = last_front(charge.way());
+  if (last_front(std::min(charge.obstacle, charge.exit)) <= sphere.radius)
     refuse(scene, "the " + std::string(charge.exit < charge.obstacle ? "radiating face" : "obstacle") +
                       " is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
   return charge;

@@ -202,7 +202,7 @@ class Builder {
       balanced = balanced && std::abs(before - line_.outside_pressure) <= line_.held;
     // The front sets out a cell ahead of the contact: a shock catches up with it, sound never would.
     constexpr double least_of_a_shock = 1e9;  // in the core [Pa]
-    line_.rests_ahead = ahead && balanced && 1e3 * line_.held >= least_of_a_shock;
+    line_.rests_ahead = ahead && balanced && scene_.fluid.gravity.isZero() && 1e3 * line_.held >= least_of_a_shock;
   }
 
   const Scene& scene_;

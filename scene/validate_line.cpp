@@ -22,8 +22,9 @@ void Validator::line() {
   if (!line.flaws.empty() || line.layers.empty()) return;
   if (line.graded && !line.rests_ahead && line.held >= 1e6)
     warn(draft_.root, "dimension",
-         "what lies round the charge does not rest until its wave comes, for it moves or begins at pressures that differ by more "
-         "than " +
+         "what lies round the charge does not rest uniformly until its wave comes, for it moves, stands under gravity or begins "
+         "at "
+         "pressures that differ by more than " +
              rounded(line.held) + " Pa: the wave's front is smeared over some cells and the run is slower");
   cells_of(line);
   burns_on(line, words);
@@ -41,7 +42,10 @@ void Validator::off_the_line(const std::string& words) {
     draft_.report.add(*draft_.obstacle_nodes[0],
                       "[[obstacles]] do not go with " + words +
                           "; take [[solids]] as a rigid layer's stand-in, or dimension = 1, whose particles meet obstacles");
-  if (!fluid_.gravity.isZero()) complain(draft_.root, "gravity", "gravity does not go with " + words + "; leave it out");
+  if (spherical && !fluid_.gravity.isZero())
+    complain(draft_.root, "gravity",
+             "gravity has a direction, which " + words +
+                 " does not; leave it out, and give the water the pressure of the charge's depth");
   if (!draft_.plane_nodes.empty())
     draft_.report.add(*draft_.plane_nodes[0], "[[planes]] do not go with " + words + "; take [[walls]] at an end");
   if (const Node* start = draft_.root.find("start")) {

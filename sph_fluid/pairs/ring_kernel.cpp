@@ -154,11 +154,11 @@ RingKernel::RingKernel(KernelName kernel, double eta) {
 }
 
 Ring RingKernel::at(double r, double h) const {
-  const double zeta = r / h, radian = 1.0 / (2.0 * std::numbers::pi);
-  if (!(zeta < table_end)) return {radian / r, -radian / (r * r)};
+  const double zeta = std::abs(r) / h, side = r < 0.0 ? -1.0 : 1.0, radian = 1.0 / (2.0 * std::numbers::pi);
+  if (!(zeta < table_end)) return {radian / std::abs(r), -side * radian / (r * r)};
   const int l = int(zeta * steps_per_h);
   const Ring ring = between(&table_[l + 1], zeta * steps_per_h - l);
-  return {radian / h * ring.a, radian / (h * h) * ring.slope};
+  return {radian / h * ring.a, side * radian / (h * h) * ring.slope};
 }
 
 }  // namespace undex::sph

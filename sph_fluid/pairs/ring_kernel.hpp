@@ -33,7 +33,8 @@ class RingKernel {
   /// For a kernel, of a scene with h = eta spacings.
   RingKernel(KernelName kernel, double eta);
 
-  /// Of the ring of radius r > 0 [m] and smoothing length h [m].
+  /// Of the ring of radius r [m] and smoothing length h [m]. Below zero, where images beyond the axis lie, `a` is that of -r and
+  /// `slope` its negative.
   Ring at(double r, double h) const;
   RingRow row(double r, double h) const {
     const Ring ring = at(r, h);

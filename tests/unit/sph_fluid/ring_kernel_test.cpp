@@ -118,5 +118,15 @@ TEST(RingKernel, IsSmoothAndLevelAtTheAxis) {
   }
 }
 
+/// Beyond the axis, where images of rings may lie, it is mirrored, far off too.
+TEST(RingKernel, IsMirroredInTheAxis) {
+  const RingKernel rings(KernelName::wendland_c2, 1.5);
+  for (const double r : {0.01, 0.5, 2.0, 7.0}) {
+    const Ring here = rings.at(r, 1.0), there = rings.at(-r, 1.0);
+    EXPECT_EQ(here.a, there.a);
+    EXPECT_EQ(here.slope, -there.slope);
+  }
+}
+
 }  // namespace
 }  // namespace undex::sph
