@@ -174,6 +174,98 @@ TEST(Sight, NoParticleCrossesAPlate) {
   }
 }
 
+/// Walls of the plane, in spacings: lines of points with the wall on their right, in pieces of two spacings at most.
+MirrorWall outline(const std::vector<std::vector<Vec3>>& lines) {
+  MirrorWall wall;
+  for (const auto& points : lines) {
+    wall.position.push_back(dx * points[0]);
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const int pieces = int(std::ceil(0.5 * (points[k] - points[k - 1]).norm()));
+      for (int m = 1; m <= pieces; ++m) {
+        const int last = int(wall.position.size()) - 1;
+        wall.position.push_back(dx * (points[k - 1] + (points[k] - points[k - 1]) * m / pieces));
+        wall.faces.push_back({last, last + 1, last + 1, last});
+      }
+    }
+  }
+  wall.velocity.assign(wall.position.size(), Vec3::Zero());
+  wall.impulse = wall.velocity;
+  return wall;
+}
+
+/// A tank of the plane, sixteen spacings wide and high, full of water at 100 MPa but for the solids.
+Settings tank_of_the_plane(const std::vector<Primitive>& solids) {
+  Settings settings;
+  settings.dimension = 2;
+  settings.lattice.spacing = dx;
+  settings.lattice.settle = false;
+  settings.numerics.threads = 1;
+  const Vec3 low(-8 * dx, -8 * dx, 0), high(8 * dx, 8 * dx, 0);
+  settings.bodies = {body("water", Shape{Box{low, high}, solids}, "water-tait")};
+  settings.bodies[0].pressure = 1e8;
+  settings.walls = {box_wall(low, high)};
+  return settings;
+}
+
+/// The largest speed after one step, over what the water would reach beside nothing.
+double unrest(Fluid& fluid) {
+  const double dt = fluid.step_limit().step;
+  fluid.step(dt);
+  double fastest = 0;
+  for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, v.norm());
+  return fastest / (1e8 / (1000.0 * dx) * dt);
+}
+
+/// A stiffener on a plate from wall to wall, of one mesh and of two walls that touch, and a plate that ends near its stiffener.
+TEST(Sight, WaterInCornersIsAtRest) {
+  for (const double t : {1.0, 2.0, 6.0})
+    for (const double end : {8.0, t + 1, t + 2}) {
+      if (end < 8.0 && t > 2.0) continue;
+      const Settings settings = tank_of_the_plane(
+          {Box{dx * Vec3(-9, -t, 0), dx * Vec3(end < 8 ? end : 9, 0, 0)}, Box{dx * Vec3(0, 0, 0), dx * Vec3(t, 4, 0)}});
+      const std::vector<Vec3> web{{0, 0, 0}, {0, 4, 0}, {t, 4, 0}, {t, 0, 0}};
+      std::vector<Vec3> top{{-8, 0, 0}, {end, 0, 0}}, below{{end, -t, 0}, {-8, -t, 0}};
+      if (end < 8.0) top.insert(top.end(), below.begin(), below.end()), below.clear();
+      const auto with = [&](std::vector<Vec3> first) {
+        return below.empty() ? std::vector<std::vector<Vec3>>{first} : std::vector<std::vector<Vec3>>{first, below};
+      };
+      Fluid two(settings);
+      two.add_wall(outline(with(top)));
+      two.add_wall(outline({web}));
+      EXPECT_LT(unrest(two), 5e-4) << t << " " << end;
+      std::vector<Vec3> around{top[0]};
+      around.insert(around.end(), web.begin(), web.end());
+      around.insert(around.end(), top.begin() + 1, top.end());
+      Fluid one(settings);
+      one.add_wall(outline(with(around)));
+      EXPECT_LT(unrest(one), 5e-4) << t << " " << end << " one mesh";
+    }
+}
+
+/// A plate of two spacings whose middle is a symmetry plane.
+TEST(Sight, HalfAPlateIsAsTheWhole) {
+  Settings settings = tank_of_the_plane({Box{dx * Vec3(-9, -1, 0), dx * Vec3(9, 1, 0)}});
+  settings.symmetry.axis = {false, true, false};
+  Fluid fluid(settings);
+  fluid.add_wall(outline({{{-8, 1, 0}, {8, 1, 0}}}));
+  EXPECT_LT(unrest(fluid), 1e-4);
+}
+
+/// Water that flies past an edge keeps its way.
+TEST(Sight, NothingTurnsWaterBesideAWall) {
+  Settings settings = tank_of_the_plane({});
+  settings.bodies[0].shape = box(dx * Vec3(3, 2, 0), dx * Vec3(5, 4, 0));
+  settings.bodies[0].pressure = 1.0;
+  settings.bodies[0].velocity = Vec3(0, -50, 0);
+  Fluid fluid(settings);
+  fluid.add_wall(outline({{{-8, 1, 0}, {2, 1, 0}, {2, 0, 0}, {-8, 0, 0}}}));
+  for (int k = 0; k < 700; ++k) fluid.step(1e-5);
+  double fastest = 0;
+  for (const Vec3& v : by_id(fluid, "velocity")) fastest = std::max(fastest, (v - Vec3(0, -50, 0)).norm());
+  EXPECT_LT(fastest, 1.0);
+  for (const Vec3& x : by_id(fluid, "position")) EXPECT_LT(x[1], 0.0);
+}
+
 TEST(Sheets, EndAtSharpEdgesAndAtTheMeshsEnd) {
   const MirrorWall open = plate(Vec3::Zero(), Vec3(1, 1, 0.1), 2, false), closed = plate(Vec3::Zero(), Vec3(1, 1, 0.1), 2, true);
   const Sheets two(open.faces, open.position, {.tolerance = 1e-6}), three(closed.faces, closed.position, {.tolerance = 1e-6}),
