@@ -132,7 +132,12 @@ SlipFaces lined_faces(const Settings& settings) {
 
 SlipFaces fixed_faces(const Settings& settings) { return faces_of(settings, {FaceCondition::free_slip, FaceCondition::no_slip}); }
 
-SlipFaces radiating_faces(const Settings& settings) { return faces_of(settings, {FaceCondition::radiating}); }
+SlipFaces radiating_faces(const Settings& settings) {
+  SlipFaces faces = faces_of(settings, {FaceCondition::radiating});
+  for (SlipFaces::Pair& pair : faces.plane)
+    if (pair.symmetric) pair.low = -1e300;  // nothing radiates at a symmetry plane
+  return faces;
+}
 
 double clearance(const SlipFaces& faces, const Bounds& box) {
   double least = 1e300;

@@ -76,6 +76,12 @@ struct Reflection {
 
 /// The image of a place in a round wall; none farther from it than `depth` [m].
 std::optional<Reflection> image_in(const SlipFaces::Round& wall, const Vec3& x, double depth, int dimension);
+/// May a place have images no farther behind a face than `depth` [m]? Most have none, and all are asked.
+inline bool may_show(const SlipFaces& faces, const Vec3& x, double depth) {
+  for (const SlipFaces::Pair& pair : faces.plane)
+    if (x[pair.axis] - pair.low < depth || pair.high - x[pair.axis] < depth) return true;
+  return !faces.round.empty();
+}
 /// Calls visit(Reflection) for all images between and behind the faces of a pair: a series on either side, each image of the last
 /// in the other face.
 template <class Visit>

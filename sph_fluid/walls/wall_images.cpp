@@ -196,6 +196,9 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                                const std::vector<MirrorWall>& walls, double depth, const Settings& settings,
                                std::vector<Image>& images) const {
   const Vec3 x = place_of(particles, i);
+  const auto first =
+      std::lower_bound(feet_.begin(), feet_.end(), i, [](const WallFoot& a, std::uint32_t k) { return a.particle < k; });
+  if ((first == feet_.end() || first->particle != i) && !may_show(faces, x, depth)) return;
   const std::size_t mark = images.size();
   const auto each = [&](auto visit) {  // the particle and the images that it has so far
     const std::size_t count = images.size();
@@ -213,8 +216,6 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
                       .normal = image.normal,
                       .wall_velocity = Vec3::Zero()});
   };
-  const auto first =
-      std::lower_bound(feet_.begin(), feet_.end(), i, [](const WallFoot& a, std::uint32_t k) { return a.particle < k; });
   const auto add_feet = [&](bool radiating) {
     for (auto foot = first; foot != feet_.end() && foot->particle == i; ++foot) {
       if (foot->at.distance <= 0.0 || walls[foot->wall].radiates() != radiating) continue;

@@ -285,6 +285,11 @@ TEST(Sheets, EndAtSharpEdgesAndAtTheMeshsEnd) {
   const Sheets on(open.faces, open.position, {.radiating = radiating, .tolerance = 1e-6});
   EXPECT_EQ(edges(open, on, false), 12);
   EXPECT_EQ(on.goes_on(0), 1u) << "the edge at y = 0";
+  Settings settings;
+  settings.walls = {box_wall(Vec3(-1, -1, -1), Vec3(1, 1, 1), FaceCondition::radiating)};
+  settings.symmetry.axis = {true, false, false};
+  EXPECT_TRUE(radiating_faces(settings).hold(Vec3(0, -1, 0), Vec3(0, -1, 1), 1e-6));
+  EXPECT_FALSE(radiating_faces(settings).hold(Vec3(0, 0, 0), Vec3(0, 0, 1), 1e-6)) << "nothing radiates at a symmetry plane";
   EXPECT_EQ(edges(closed, three, true), 8) << "two faces an edge, at the end in x";
   // At a sharp edge each side has its own normal.
   std::array<Vec3, 4> normal;
