@@ -11,5 +11,7 @@ namespace undex::scene {
 /// Complains of what cannot be; `warnings` gets what can, and is unlikely.
 void expect_plausible(const TableReader& table, const materials::FluidLaw& law, Report& warnings);
 void expect_plausible(const TableReader& table, const materials::Solid& solid, Report& warnings);
+/// The same of the front that a scene gives a charge of `products`, at `speed` [m/s].
+void expect_plausible_burn(const TableReader& burn, const materials::Jwl& products, double speed, Report& warnings);
 
 }  // namespace undex::scene
