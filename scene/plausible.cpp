@@ -32,20 +32,6 @@ const std::vector<OfExplosive>& of_explosives() {
   return all;
 }
 
-void expect_usual(const TableReader& table, const Jwl::Parameters& p) {
-  for_each_field(p, [&](const auto& value, const Key& key) {
-    for (const auto& [name, usual] : of_explosives()) {
-      if (std::string_view(name) != key.name || usual.holds(value)) continue;
-      std::string why = guess(usual, value);
-      if (std::string_view(key.name) == "E0" && value > usual.high && usual.holds(value / p.rho0))
-        why = "; is it per volume, in J/m^3? Per mass it would be " + rounded(value / p.rho0);
-      table.complain(key.name, table.path_of(key.name) + " = " + shortest(value) +
-                                   (*usual.unit ? std::string(" [") + usual.unit + "]" : "") + " is not that of an explosive, " +
-                                   rounded(usual.low) + " to " + rounded(usual.high) + why);
-    }
-  });
-}
-
 double off(double given, double own) { return std::abs(given / own - 1); }
 
 std::string in_words(const ChapmanJouguet& own) {
@@ -56,9 +42,6 @@ std::string in_words(const ChapmanJouguet& own) {
 /// The set's own Chapman-Jouguet state beside the published D and p_cj.
 void check(const TableReader& table, const Jwl& law, Report& warnings) {
   const Jwl::Parameters& p = law.parameters();
-  const std::size_t before = table.report().size();
-  expect_usual(table, p);
-  if (table.report().size() > before) return;
   const Node& at = table.has("D") ? *table.find("D") : table.node();
   try {
     const ChapmanJouguet own = chapman_jouguet(law);
@@ -77,28 +60,11 @@ void check(const TableReader& table, const Jwl& law, Report& warnings) {
   }
 }
 
-void check_units(const TableReader& table, const TaitWater::Parameters& p) {
-  expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
-  expect_unit(table, "B", table.path_of("B"), "a liquid", usual_modulus, p.B);
-}
-void check_units(const TableReader& table, const MieGruneisenWater::Parameters& p) {
-  expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
-  expect_unit(table, "C0", table.path_of("C0"), "a liquid", usual_speed, p.C0);
-}
-/// Also used without dimensions: only where the density is a liquid's.
-void check_units(const TableReader& table, const StiffenedGas::Parameters& p) {
-  if (p.rho0 >= 300 && usual_density.holds(p.rho0) && p.p_inf > 0)
-    expect_unit(table, "p_inf", table.path_of("p_inf"), "a liquid", usual_modulus, p.p_inf);
-}
-
-/// Of what is left other fluids are told from nothing but their speed of sound: none has less than ten metres a second or more
+/// Of what is left liquids are told from nothing but their speed of sound: none has less than ten metres a second or more
 /// than 2e4.
 template <class Law>
 void check(const TableReader& table, const Law& law, Report& warnings) {
   if constexpr (!Law::is_gas) {  // gases are also used without dimensions
-    const std::size_t before = table.report().size();
-    check_units(table, law.parameters());
-    if (table.report().size() > before) return;
     const double rho0 = law.parameters().rho0;
     double sound = 0;
     try {
@@ -152,6 +118,34 @@ void check_moduli(const TableReader& table, const Solid& solid, double wave_spee
 }
 
 }  // namespace
+
+void expect_usual_units(const TableReader& table, const Jwl::Parameters& p) {
+  for_each_field(p, [&](const auto& value, const Key& key) {
+    for (const auto& [name, usual] : of_explosives()) {
+      if (std::string_view(name) != key.name || usual.holds(value)) continue;
+      std::string why = guess(usual, value);
+      if (std::string_view(key.name) == "E0" && value > usual.high && usual.holds(value / p.rho0))
+        why = "; is it per volume, in J/m^3? Per mass it would be " + rounded(value / p.rho0);
+      table.complain(key.name, table.path_of(key.name) + " = " + shortest(value) +
+                                   (*usual.unit ? std::string(" [") + usual.unit + "]" : "") + " is not that of an explosive, " +
+                                   rounded(usual.low) + " to " + rounded(usual.high) + why);
+    }
+  });
+}
+
+void expect_usual_units(const TableReader& table, const TaitWater::Parameters& p) {
+  expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
+  expect_unit(table, "B", table.path_of("B"), "a liquid", usual_stiffness, p.B);
+}
+void expect_usual_units(const TableReader& table, const MieGruneisenWater::Parameters& p) {
+  expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
+  expect_unit(table, "C0", table.path_of("C0"), "a liquid", usual_speed, p.C0);
+}
+/// Also used without dimensions: only where the density is a liquid's.
+void expect_usual_units(const TableReader& table, const StiffenedGas::Parameters& p) {
+  if (p.rho0 >= 300 && usual_density.holds(p.rho0) && p.p_inf > 0)
+    expect_unit(table, "p_inf", table.path_of("p_inf"), "a liquid", usual_stiffness, p.p_inf);
+}
 
 void expect_plausible(const TableReader& table, const FluidLaw& law, Report& warnings) {
   std::visit([&](const auto& each) { check(table, each, warnings); }, law);

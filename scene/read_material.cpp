@@ -43,6 +43,7 @@ bool rebuild(const TableReader& table, bool based, Draft& draft, Fluid& into) {
   if (based) parameters = std::get<Law>(into.law).parameters();
   const std::size_t before = table.report().size();
   read_fields(table, parameters, !based, all_of_a_law);
+  if (table.report().size() == before) expect_usual_units(table, parameters);
   if (table.report().size() != before) return false;
   try {
     into.law = Law(parameters);

@@ -14,6 +14,7 @@ const std::vector<Usual::Other> speeds{{"km/s", 1e3}, {"cm/us", 1e4}, {"mm/s", 1
 
 const Usual usual_density{"kg/m^3", 20, 3e4, 3e3, {{"g/cm^3", 1e3}, {"t/mm^3", 1e12}}};
 const Usual usual_modulus{"Pa", 1e5, 1e14, 1e11, pressures};
+const Usual usual_stiffness{"Pa", 1e5, 1e12, 5e8, pressures};
 const Usual usual_strength{"Pa", 1e4, 2e10, 3e8, {{"MPa", 1e6}, {"GPa", 1e9}, {"Mbar", 1e11}}};
 const Usual usual_speed{"m/s", 100, 3e4, 3e3, speeds};
 const Usual usual_heat_capacity{"J/kg/K", 50, 1e4, 600, {{"J/g/K", 1e3}, {"mJ/t/K", 1e-6}}};

@@ -24,7 +24,8 @@ struct Usual {
   const Other* likely(double value) const;
 };
 
-extern const Usual usual_density, usual_modulus, usual_strength, usual_speed, usual_heat_capacity;
+extern const Usual usual_density, usual_modulus, usual_stiffness, usual_strength, usual_speed,
+    usual_heat_capacity;  ///< stiffness: of liquids
 extern const Usual explosive_pressure, explosive_energy, explosive_speed, explosive_front_pressure;
 
 /// "; is it in km/s? In m/s it would be 6930", or "; check its unit".
