@@ -312,7 +312,7 @@ void read_own_materials(Draft& draft) {
   for (const Entry& entry : own->entries) {
     const std::string path = "materials." + entry.key;
     if (find_fluid(entry.key) || find_solid(entry.key))
-      draft.report.add(entry, path + ": the library has a material of that name; choose another one");
+      draft.warnings.add(entry, path + " hides the library's material of that name; another one would be clearer");
     Fluid fluid;
     Solid solid{};
     if (looks_solid(entry.node, draft, 0)) read_solid_at(entry.node, path, draft, 0, solid);

@@ -90,6 +90,13 @@ TEST(Plausibility, FrontsOfAnotherSpeedAreSaid) {
   refused(at("5000"), "burn.speed = 5000 [m/s] is not the detonation speed of the material");
 }
 
+/// The library may grow without breaking scenes that have a set of such a name.
+TEST(Plausibility, MaterialsThatHideTheLibrarysAreSaid) {
+  const std::string scene = coupled_tube + "[materials.petn]\nbase = \"tnt\"\n";
+  warned(scene, "materials.petn hides the library's material of that name");
+  EXPECT_EQ(read_text(scene).fluid.bodies.front().material.rho0, 1630);
+}
+
 TEST(Plausibility, OtherUnitsAreGuessed) {
   refused(with(charge, "D = 6930", "D = 6.93"),
           "material.D = 6.93 [m/s] is not that of an explosive, 500 to 20000; is it in km/s? In m/s it would be 6930");
