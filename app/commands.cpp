@@ -10,7 +10,6 @@
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "judge/judge.hpp"
-#include "materials/library.hpp"
 #include "output/files.hpp"
 #include "output/folder_lock.hpp"
 #include "output/run_folder.hpp"
@@ -106,23 +105,6 @@ int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, cons
   return 128 + result.signal;
 }
 
-template <class Set>
-void print_set(const Set& set) {
-  std::printf("%s\n  %s\n ", set.name.c_str(), set.source.c_str());
-  int column = 1;
-  for (const auto& [name, value] : materials::parameters(set)) {
-    char text[100];
-    const int length = std::snprintf(text, sizeof text, " %s = %.6g;", name.c_str(), value);
-    if (column + length > 118) {
-      std::printf("\n ");
-      column = 1;
-    }
-    std::printf("%s", text);
-    column += length;
-  }
-  std::printf("\n\n");
-}
-
 }  // namespace
 
 int run_scene(const RunArguments& arguments) {
@@ -165,14 +147,6 @@ int check_scene(const SceneArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);
   const judge::Judge needs_its_reference(scene);
   std::printf("%s", run::describe(scene).c_str());
-  return exit_done;
-}
-
-int print_materials() {
-  std::printf("Fluids\n\n");
-  for (const std::string& name : materials::fluid_names()) print_set(*materials::find_fluid(name));
-  std::printf("Solids\n\n");
-  for (const std::string& name : materials::solid_names()) print_set(*materials::find_solid(name));
   return exit_done;
 }
 

@@ -28,7 +28,13 @@ struct ResumeArguments {
 
 int resume_run(const ResumeArguments& arguments);
 int check_scene(const SceneArguments& arguments);
-int print_materials();
+
+struct MaterialsArguments {
+  std::string name, kind;  ///< of the sets that are shown; empty: of any
+  bool json = false;
+};
+
+int print_materials(const MaterialsArguments& arguments);
 int write_keys(const std::filesystem::path& page);
 int list_scenes();
 int print_version(bool json);

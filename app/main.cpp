@@ -135,7 +135,16 @@ int dispatch(int argc, char** argv) {
       "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
       "The study file: docs/studies.md");
 
-  CLI::App* materials = program.add_subcommand("materials", "the named material sets with values, units and sources");
+  MaterialsArguments materials_arguments;
+  CLI::App* materials = program.add_subcommand(
+      "materials", "the named material sets: values in SI units, source, grade, where they may be used, states of detonation");
+  materials->add_option("name", materials_arguments.name, "only this set")->type_name("NAME");
+  materials->add_option("--kind", materials_arguments.kind, "only those of a kind: water, explosive, gas or metal");
+  materials->add_flag("--json", materials_arguments.json, "as a JSON array of objects");
+  materials->footer(
+      "Grades: A read in an established code, data file or paper with its citation; B in an established code without one; C a "
+      "community's set, or recalled from a named paper; D without reference, assumed in part, or contradicting itself. An "
+      "explosive is unverified where a listed speed or pressure of detonation is over 2 % off its own Chapman-Jouguet state.");
   std::string page;
   CLI::App* keys =
       program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/scene-file.md")->group("");
@@ -166,7 +175,7 @@ int dispatch(int argc, char** argv) {
     study_options.program = version_line();
     return study::run_study(study_options);
   }
-  if (*materials) return print_materials();
+  if (*materials) return print_materials(materials_arguments);
   if (*keys) return write_keys(page);
   if (*list) return list_scenes();
   if (*version) return print_version(json);

@@ -53,12 +53,13 @@ materials::PressureSound true_pressure_sound(const materials::FluidLaw& law, dou
   double gamma = 0.0;
   if (const auto* gas = std::get_if<materials::BarotropicGas>(&law)) gamma = gas->parameters().gamma;
   if (const auto* gas = std::get_if<materials::IdealGas>(&law)) gamma = gas->parameters().gamma;
-  double inner = 0.0;
+  double inner = 0.0, free = 1.0;
   if (const auto* liquid = std::get_if<materials::StiffenedGas>(&law)) {
     gamma = liquid->parameters().gamma;
     inner = liquid->parameters().p_inf;
+    free = liquid->free_share(density);
   }
-  if (gamma > 0.0) s.sound_speed = std::sqrt(gamma * std::max(s.pressure + inner, 0.0) / density);
+  if (gamma > 0.0) s.sound_speed = std::sqrt(gamma * std::max(s.pressure + inner, 0.0) / (density * free));
   return s;
 }
 

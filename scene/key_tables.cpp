@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "core/point_values.hpp"
+#include "scene/library_table.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/tables.hpp"
 #include "scene/toml_values.hpp"
@@ -98,8 +99,9 @@ std::string table_of(const auto& record) {
   return rows.empty() ? "" : head + rows;
 }
 
-/// The table of that name; of a mark "tables:", all that begin with it and say what they are.
+/// The table of that name, "library" for the named materials; of a mark "tables:", all that begin with it and say what they are.
 std::string text_for(const std::string& name, bool group) {
+  if (name == "library") return library_table();
   std::string text;
   for_each_table([&](const std::string& each, const char* summary, const auto& record, const char*) {
     if (!group && each == (name == "top" ? "" : name)) text = table_of(record);

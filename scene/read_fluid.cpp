@@ -5,6 +5,7 @@
 #include "scene/faces.hpp"
 #include "scene/line.hpp"
 #include "scene/numbers.hpp"
+#include "scene/plausible.hpp"
 #include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
 
@@ -164,7 +165,7 @@ std::optional<ProgrammedBurn> programmed(const TableReader& table, const TableRe
 }
 
 /// A charge of law jwl burns from its middle unless told otherwise; burn = "instantaneous" is short for a table.
-void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
+void read_burn(const TableReader& table, Draft& draft, sph::Body& body) {
   const auto* products = std::get_if<Jwl>(&body.material.law);
   const Node* node = table.find("burn");
   if (!products) {
@@ -190,7 +191,9 @@ void read_burn(const TableReader& table, const Draft& draft, sph::Body& body) {
     table.complain("burn",
                    table.path_of("burn") + " must be \"programmed\", \"instantaneous\" or a table, not " + node->described());
   }
-  if (!instantaneous) body.burn = programmed(table, burn, draft, *products, body);
+  if (instantaneous) return;
+  body.burn = programmed(table, burn, draft, *products, body);
+  if (body.burn) expect_plausible_burn(burn, *products, body.burn->D, draft.warnings);
 }
 
 /// Can the body have its pressure?
@@ -219,7 +222,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   read_subtractions(table, draft, index, body.shape.removed);
   if (!material_good) return body;
   if (std::holds_alternative<StiffenedGas>(body.material.law))
-    table.need("energy", "law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) rho)");
+    table.need("energy", "law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)(1 - b rho)/((gamma - 1) rho) + q");
   read_burn(table, draft, body);
   check_pressure(table, body);
   check_level(table, draft, shape_good, body);

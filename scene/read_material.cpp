@@ -43,6 +43,7 @@ bool rebuild(const TableReader& table, bool based, Draft& draft, Fluid& into) {
   if (based) parameters = std::get<Law>(into.law).parameters();
   const std::size_t before = table.report().size();
   read_fields(table, parameters, !based, all_of_a_law);
+  if (table.report().size() == before) expect_usual_units(table, parameters);
   if (table.report().size() != before) return false;
   try {
     into.law = Law(parameters);
@@ -311,7 +312,7 @@ void read_own_materials(Draft& draft) {
   for (const Entry& entry : own->entries) {
     const std::string path = "materials." + entry.key;
     if (find_fluid(entry.key) || find_solid(entry.key))
-      draft.report.add(entry, path + ": the library has a material of that name; choose another one");
+      draft.warnings.add(entry, path + " hides the library's material of that name; another one would be clearer");
     Fluid fluid;
     Solid solid{};
     if (looks_solid(entry.node, draft, 0)) read_solid_at(entry.node, path, draft, 0, solid);

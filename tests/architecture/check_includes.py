@@ -58,7 +58,7 @@ LIBRARY_OWNERS = {
     "deal.II/": ["fem_structure"],
     "hdf5.h": ["output"],
     "H5": ["output"],
-    "toml++/": ["scene"],
+    "toml++/": ["core"],
     "CLI/": ["app"],
     "xxhash.h": ["output"],
 }

@@ -1374,6 +1374,25 @@ class Telling(Case):
                 self.assertIn(used, names + own)
         self.assertGreaterEqual({"water-tait", "water-steinberg", "petn", "al-5083-h116"} & set(names),
                                 {"water-tait", "water-steinberg", "petn", "al-5083-h116"})
+        finished = self.undex("materials", "--json")
+        self.ends(finished, 0)
+        described = json.loads(finished.stdout)
+        self.assertEqual([each["name"] for each in described], names)
+        for each in described:
+            self.assertGreaterEqual(each.keys(), {"name", "kind", "source", "grade", "checked", "valid", "constants"})
+            self.assertEqual(each["kind"] == "explosive", "chapman_jouguet" in each)
+
+    def test_materials_of_a_name_and_of_a_kind(self):
+        finished = self.undex("materials", "c-4")
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"\Ac-4\n")
+        self.assertIn("UNVERIFIED: D is 4 % off", finished.stdout)
+        finished = self.undex("materials", "--kind", "gas", "--json")
+        self.ends(finished, 0)
+        self.assertEqual({each["kind"] for each in json.loads(finished.stdout)}, {"gas"})
+        self.ends(self.undex("materials", "pten"), 2, "no material 'pten'; did you mean 'petn'?")
+        self.ends(self.undex("materials", "--kind", "metals"), 2, "no kind 'metals'; did you mean 'metal'?")
+        self.ends(self.undex("materials", "petn", "--kind", "gas"), 2, "'petn' is of the kind explosive")
 
     def test_version(self):
         finished = self.undex("version", "--json")

@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 
+#include "materials/library_reader.hpp"
 #include "scene/document.hpp"
 
 namespace {
@@ -47,6 +48,36 @@ TEST(ReadingWithoutMemory, ANumberIsNoTextAndNoMistake) {
       ASSERT_TRUE(node.find("value")->is_number()) << allocation;
       EXPECT_EQ(node.find("value")->number, 1.2345678901234567e-6);
       EXPECT_EQ(node.find("list")->items.size(), 2u);
+    }
+    if (!reached) break;
+  }
+  EXPECT_GT(failed, 10);
+}
+
+TEST(ReadingWithoutMemory, TheLibraryIsWholeOrNotThere) {
+  const std::vector<std::string_view> texts{
+      "kind = \"gas\"\n[[set]]\nname = \"a name that is too long to be kept in place\"\nsource = \"\"\ngrade = \"A\"\n"
+      "checked = \"\"\nvalid = [0, 1.5e9]\nlaw = \"ideal_gas\"\nrho0 = 1.2345678901234567\ngamma = 1.4\n"};
+  long failed = 0;
+  for (long allocation = 0;; ++allocation) {
+    ASSERT_LT(allocation, 100000);
+    materials::Sets sets;
+    bool whole = false;
+    until_failure = allocation;
+    try {
+      sets = materials::read_sets(texts);
+      whole = true;
+    } catch (const std::bad_alloc&) {
+      ++failed;
+    } catch (const std::exception& other) {
+      until_failure = -1;
+      FAIL() << "allocation " << allocation << ": " << other.what();
+    }
+    const bool reached = until_failure < 0;
+    until_failure = -1;
+    if (whole) {
+      ASSERT_EQ(sets.fluids.size(), 1u);
+      EXPECT_EQ(sets.fluids[0].rho0, 1.2345678901234567);
     }
     if (!reached) break;
   }

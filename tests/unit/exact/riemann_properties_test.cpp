@@ -170,6 +170,26 @@ TEST(RiemannProperties, EverySolutionConservesOrIsRefusedWithAReason) {
   for (std::size_t a = 0; a < all.size(); ++a) EXPECT_GT(solved_by_law[a], 3) << all[a].name;
 }
 
+TEST(RiemannProperties, MoleculesOfAStiffenedGasTakeTheirVolume) {
+  const materials::StiffenedGas water({.rho0 = 1000, .gamma = 1.19, .p_inf = 7.028e8, .b = 6.61e-4, .q = -1177788});
+  const auto side = [&](double density, double pressure, double velocity) {
+    RiemannSide of{water, density, velocity};
+    of.energy = water.energy_at(pressure, density);
+    return of;
+  };
+  for (const auto& [left, right] :
+       {std::pair(side(1000, 1e5, 300), side(1000, 1e5, -300)), std::pair(side(1000, 1e9, 0), side(1000, 1e5, 0)),
+        std::pair(side(1150, 8e9, 0), side(900, 1e5, 100)), std::pair(side(1000, 1e8, -20), side(1000, 1e8, 20))}) {
+    const RiemannSolution solution(left, right);
+    const std::string what = std::to_string(left.density) + " " + std::to_string(right.density);
+    expect_wave(solution, left, 0, what);
+    expect_wave(solution, right, 1, what);
+  }
+  // A liquid of free volume v - b is a stiffened gas of that volume: of a weak wave the impedance is rho c.
+  const RiemannSolution weak(side(1000, 1e5, 1), side(1000, 1e5, -1));
+  EXPECT_NEAR(weak.pressure() - 1e5, 1000 * 1570.8, 1000 * 4.0);
+}
+
 TEST(RiemannProperties, AMetalWithoutCutOffIsSolvedUnderImpactAndRefusedWhenTornApart) {
   const FluidLaw metal = materials::MieGruneisenWater(aluminium());
   // The shock of a symmetric impact: p = rho0 (C0 + S u) u.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "materials/burn.hpp"
@@ -21,16 +22,66 @@ double value(const std::vector<std::pair<std::string, double>>& table, const std
 
 TEST(Library, HasEverySetByName) {
   const std::vector<std::string> fluids = fluid_names(), solids = solid_names();
-  EXPECT_EQ(std::set<std::string>(fluids.begin(), fluids.end()),
-            (std::set<std::string>{"water-tait", "water-tait-cutoff", "water-tait-isentropic", "water-steinberg",
-                                   "water-paper-mg", "petn", "bubble-gas", "sjogreen-gas", "sjogreen-gas-gamma2", "air"}));
-  EXPECT_EQ(fluids.size(), 10u);
-  EXPECT_EQ(
-      std::set<std::string>(solids.begin(), solids.end()),
-      (std::set<std::string>{"al-impact-table2", "al-2024-t351", "al-6061-t6", "al-5083-h116", "al-5083-h116-m0859", "al-5086-o",
-                             "al-5086-h116", "armco-iron", "copper-ofhc", "al-5086-za", "steel-4340", "armco-iron-za",
-                             "copper-ofhc-za", "armco-iron-damage", "copper-ofhc-damage", "steel-4340-damage"}));
-  EXPECT_EQ(solids.size(), 16u);
+  EXPECT_EQ(std::set<std::string>(fluids.begin(), fluids.end()), (std::set<std::string>{"water-tait",
+                                                                                        "water-tait-cutoff",
+                                                                                        "water-tait-isentropic",
+                                                                                        "seawater",
+                                                                                        "water-steinberg",
+                                                                                        "water-paper-mg",
+                                                                                        "water-mg-schwer",
+                                                                                        "water-sg-sussman",
+                                                                                        "water-sg-applaud",
+                                                                                        "water-sg-ecogen",
+                                                                                        "water-sg-ecogen-300k",
+                                                                                        "water-sg-saurel",
+                                                                                        "water-nasg-ecogen",
+                                                                                        "water-nasg-ecogen-298-474k",
+                                                                                        "petn",
+                                                                                        "tnt",
+                                                                                        "tnt-omega035",
+                                                                                        "comp-b",
+                                                                                        "comp-b-isentrope",
+                                                                                        "c-4",
+                                                                                        "lx-14",
+                                                                                        "hmx",
+                                                                                        "anfo",
+                                                                                        "anfo-1160",
+                                                                                        "pbx-9501",
+                                                                                        "pbx-9404",
+                                                                                        "pbx-9502",
+                                                                                        "bubble-gas",
+                                                                                        "sjogreen-gas",
+                                                                                        "sjogreen-gas-gamma2",
+                                                                                        "air"}));
+  EXPECT_EQ(fluids.size(), 31u);
+  EXPECT_EQ(std::set<std::string>(solids.begin(), solids.end()), (std::set<std::string>{"al-impact-table2",
+                                                                                        "al-2024-t351",
+                                                                                        "al-6061-t6",
+                                                                                        "al-5083-h116",
+                                                                                        "al-5083-h116-m0859",
+                                                                                        "al-5086-o",
+                                                                                        "al-5086-h116",
+                                                                                        "armco-iron",
+                                                                                        "copper-ofhc",
+                                                                                        "al-5086-za",
+                                                                                        "steel-4340",
+                                                                                        "armco-iron-za",
+                                                                                        "copper-ofhc-za",
+                                                                                        "armco-iron-damage",
+                                                                                        "copper-ofhc-damage",
+                                                                                        "steel-4340-damage",
+                                                                                        "steel-4340-mg",
+                                                                                        "copper-ofhc-mg",
+                                                                                        "steel-hzb",
+                                                                                        "steel-s7",
+                                                                                        "steel-hy100",
+                                                                                        "steel-17-4ph",
+                                                                                        "brass-half-hard",
+                                                                                        "tungsten",
+                                                                                        "tungsten-alloy",
+                                                                                        "tungsten-alloy-damage",
+                                                                                        "lead"}));
+  EXPECT_EQ(solids.size(), 27u);
 }
 
 TEST(Library, UnknownNamesAreNothing) {
@@ -48,7 +99,8 @@ TEST(Library, FluidsAreUsable) {
     EXPECT_EQ(fluid.name, name);
     EXPECT_GT(fluid.source.size(), 20u) << name;
     EXPECT_GT(fluid.rho0, 0.0) << name;
-    const double energy = 2e5;
+    const auto* stiffened = std::get_if<StiffenedGas>(&fluid.law);
+    const double energy = stiffened ? stiffened->energy_at(1e5, fluid.rho0) : 2e5;
     const PressureSound s = std::visit([&](const auto& law) { return law.evaluate(fluid.rho0, energy); }, fluid.law);
     EXPECT_GT(s.pressure, 0.0) << name;
     EXPECT_GT(s.sound_speed, 0.0) << name;
@@ -80,18 +132,18 @@ TEST(Library, SolidsAreUsable) {
     EXPECT_GT(s.source.size(), 20u) << name;
     EXPECT_GT(s.rho0, 0.0) << name;
     EXPECT_GT(s.shear_modulus, 0.0) << name;
-    // Poisson's ratio from the two moduli: metals lie between 0.25 and 0.4.
+    // Poisson's ratio from the two moduli: metals lie between 0.25 and 0.4, but for lead.
     const double K = bulk_modulus(s), nu = (3 * K - 2 * s.shear_modulus) / (2 * (3 * K + s.shear_modulus));
     EXPECT_GT(nu, 0.25) << name;
-    EXPECT_LT(nu, 0.4) << name;
-    EXPECT_GT(wave_speed(s), 4000.0) << name;
+    EXPECT_LT(nu, name == "lead" ? 0.43 : 0.4) << name;
+    EXPECT_GT(wave_speed(s), name == "lead" ? 2000.0 : 4000.0) << name;
     EXPECT_LT(wave_speed(s), 7000.0) << name;
-    EXPECT_GT(s.heat_capacity, 300.0) << name;
+    EXPECT_GT(s.heat_capacity, 100.0) << name;
     EXPECT_LT(s.heat_capacity, 1000.0) << name;
     EXPECT_EQ(s.taylor_quinney, 0.9) << name;
     const double yield = flow_stress(s.flow, 0.0, 1.0, s.T_room);
-    EXPECT_GT(yield, 50e6) << name;
-    EXPECT_LT(yield, 800e6) << name;
+    EXPECT_GT(yield, name == "lead" ? 10e6 : 50e6) << name;
+    EXPECT_LT(yield, 1600e6) << name;
     if (const auto* jc = std::get_if<JohnsonCook>(&s.flow)) {
       EXPECT_EQ(jc->T_room, s.T_room) << name;
     }
@@ -100,9 +152,9 @@ TEST(Library, SolidsAreUsable) {
 
 TEST(Library, RecalledValuesSaySo) {
   for (const char* name : {"al-2024-t351", "al-5083-h116", "al-5083-h116-m0859", "al-5086-o", "al-5086-h116", "steel-4340",
-                           "armco-iron-za", "copper-ofhc-za", "armco-iron-damage", "copper-ofhc-damage", "steel-4340-damage"})
+                           "armco-iron-za", "copper-ofhc-za"})
     EXPECT_NE(find_solid(name)->source.find("recalled, not read"), std::string::npos) << name;
-  for (const char* name : {"water-steinberg", "water-tait-isentropic"})
+  for (const char* name : {"water-steinberg", "water-tait-isentropic", "seawater", "air"})
     EXPECT_NE(find_fluid(name)->source.find("recalled, not read"), std::string::npos) << name;
 }
 
@@ -110,6 +162,7 @@ TEST(Library, KnownNumbers) {
   EXPECT_NEAR(std::get<TaitWater>(find_fluid("water-tait")->law).evaluate(1000.0, 0.0).sound_speed, 1538.4, 0.05);
   EXPECT_EQ(std::get<TaitWater>(find_fluid("water-tait")->law).parameters().cavitation, Cavitation::schmidt);
   EXPECT_EQ(std::get<TaitWater>(find_fluid("water-tait-cutoff")->law).parameters().cavitation, Cavitation::cutoff);
+  EXPECT_NEAR(std::get<TaitWater>(find_fluid("seawater")->law).evaluate(1025.0, 0.0).sound_speed, 1500.0, 1e-6);
   EXPECT_NEAR(std::get<MieGruneisenWater>(find_fluid("water-steinberg")->law).evaluate(1200.0, 0.0).pressure, 847e6, 0.5e6);
   EXPECT_NEAR(std::get<MieGruneisenWater>(find_fluid("water-paper-mg")->law).evaluate(1200.0, 0.0).pressure, 1332e6, 0.5e6);
   EXPECT_EQ(std::get<BarotropicGas>(find_fluid("bubble-gas")->law).evaluate(1770.0, 0.0).pressure, 2e9);
@@ -129,6 +182,22 @@ TEST(Library, KnownNumbers) {
   EXPECT_EQ(std::get<LinearHardening>(find_solid("al-impact-table2")->flow).H, 0.0);
   EXPECT_EQ(value(parameters(find_solid("al-impact-table2").value()), "pressure.C [m/s]"), 5300.0);
   EXPECT_EQ(value(parameters(find_solid("copper-ofhc").value()), "flow.A [Pa]"), 90e6);
+}
+
+/// Sound speeds at rest, as the data files state them.
+TEST(Library, StiffenedWatersSoundAsStated) {
+  for (const auto& [name, sound] : std::map<std::string, double>{{"water-sg-sussman", 1539},
+                                                                 {"water-sg-applaud", 1449},
+                                                                 {"water-sg-ecogen", 1625},
+                                                                 {"water-sg-ecogen-300k", 1461},
+                                                                 {"water-sg-saurel", 1533},
+                                                                 {"water-nasg-ecogen", 1571},
+                                                                 {"water-nasg-ecogen-298-474k", 1589.7}}) {
+    const auto law = std::get<StiffenedGas>(find_fluid(name)->law);
+    const PressureSound s = law.evaluate(1000, law.energy_at(1.01325e5, 1000));
+    EXPECT_NEAR(s.sound_speed, sound, 0.6) << name;
+    EXPECT_NEAR(s.pressure, 1.01325e5, 10) << name;
+  }
 }
 
 TEST(Library, ZerilliArmstrongOf5086IsTheFormulaOfItsSource) {
@@ -152,7 +221,7 @@ TEST(Library, DamageIsAnOption) {
     EXPECT_TRUE(std::equal(rows.begin(), rows.end(), damaged.begin())) << name;
     EXPECT_EQ(damaged.size(), rows.size() + 8) << name;
     EXPECT_EQ(s.damage->T_melt, std::get<JohnsonCook>(s.flow).T_melt) << name;
-    EXPECT_GT(fracture_strain(*s.damage, 1e3, 1.0, 293.0), 0.04) << name;
+    EXPECT_GT(fracture_strain(*s.damage, 1e3, 1.0, 293.0), 0.03) << name;
   }
   EXPECT_NEAR(fracture_strain(*find_solid("copper-ofhc-damage")->damage, 1.0 / 3.0, 1.0, 293.0), 2.3211, 1e-4);
 }

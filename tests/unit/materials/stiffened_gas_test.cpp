@@ -34,10 +34,25 @@ TEST(StiffenedGas, SoundIsTheIsentropicSlope) {
   }
 }
 
+/// Noble-Abel stiffened gas, with a volume of its molecules.
+TEST(StiffenedGas, SoundIsTheIsentropicSlopeWithMolecules) {
+  const StiffenedGas water({.rho0 = 1000.0, .gamma = 1.19, .p_inf = 702.8e6, .b = 6.61e-4, .q = -1177788});
+  for (const double rho : {900.0, 1000.0, 1300.0}) {
+    const double energy = water.energy_at(1e9, rho);
+    const PressureSound s = water.evaluate(rho, energy);
+    EXPECT_NEAR(s.pressure, 1e9, 1.0);
+    EXPECT_NEAR(test::isentropic_slope(water, rho, energy), s.sound_speed * s.sound_speed, 1e-6 * s.sound_speed * s.sound_speed);
+    EXPECT_NEAR(water.density_at(s.pressure, energy), rho, 1e-9 * rho);
+  }
+  EXPECT_GT(water.evaluate(1600.0, 1e6).pressure, 1e11) << "beyond 1/b it stays stiff";
+}
+
 TEST(StiffenedGas, RefusesWhatItCannotBe) {
   EXPECT_THROW(StiffenedGas({.rho0 = 0.0, .gamma = 4.4, .p_inf = 6e8}), std::invalid_argument);
   EXPECT_THROW(StiffenedGas({.rho0 = 1.0, .gamma = 1.0, .p_inf = 6e8}), std::invalid_argument);
   EXPECT_THROW(StiffenedGas({.rho0 = 1.0, .gamma = 4.4, .p_inf = -1.0}), std::invalid_argument);
+  EXPECT_THROW(StiffenedGas({.rho0 = 1000.0, .gamma = 1.2, .p_inf = 7e8, .b = 1e-3}), std::invalid_argument);
+  EXPECT_THROW(StiffenedGas({.rho0 = 1.0, .gamma = 4.4, .p_inf = 1.0, .b = -1e-3}), std::invalid_argument);
   const StiffenedGas water({.rho0 = 1000.0, .gamma = 4.4, .p_inf = 6e8});
   EXPECT_THROW(water.density_at(1e5, 0.0), std::domain_error);
   EXPECT_THROW(water.density_at(-4.4 * 6e8, 1e6), std::domain_error);

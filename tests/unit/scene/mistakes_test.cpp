@@ -175,8 +175,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"stiffened gas without energy",
        with(two_gases, "{law = \"ideal_gas\", rho0 = 1, gamma = 1.4}\ndensity = 0.125\nenergy = 2",
             "{law = \"stiffened_gas\", rho0 = 1, gamma = 4.4, p_inf = 6}\ndensity = 0.125"),
-       "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)/((gamma - 1) "
-       "rho)\n"},
+       "13:1: bodies.right.energy is missing; law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)(1 - b "
+       "rho)/((gamma - 1) rho) + q\n"},
       {"plane wave without its keys", two_gases + "[start]\nkind = \"plane_wave\"\nbody = \"left\"\n",
        "19:1: start.axis is missing; name the axis along which the wave runs\n"
        "19:1: start.front is missing; give the position of the wave's front along its axis in m\n"
