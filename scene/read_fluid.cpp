@@ -92,7 +92,7 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
 
 /// A level that is given as a number: the coordinate along gravity.
 void read_level(const TableReader& table, const Vec3& gravity, sph::Body& body) {
-  if (!table.has("level") || !table.find("level")->is_number()) return;
+  if (!table.has("level") || table.find("level")->kind == Node::Kind::array) return;
   double height = 0;
   if (!table.read("level", height)) return;
   body.level = Vec3::Zero();
