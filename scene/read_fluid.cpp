@@ -214,6 +214,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   body.variable_h = material_good && is_gas(body.material.law);
   read_fields(table, body);
   read_level(table, draft.scene.fluid.gravity, body);
+  read_radial(table, body.radial);
   if (const Node* shape = table.find("shape"))
     shape_good = read_shape(*shape, table.path_of("shape"), table.dimension(), shape_names(), report, body.shape.base);
   read_subtractions(table, draft, index, body.shape.removed);
