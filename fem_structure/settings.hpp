@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/radial_motion.hpp"
 #include "core/record.hpp"
 #include "core/rigid_plane.hpp"
 #include "core/vector.hpp"
@@ -60,10 +62,12 @@ struct Settings {
   std::vector<PressureLoad> loads;
   std::vector<RigidPlane> planes;
   Vec3 initial_velocity = Vec3::Zero();  ///< [m/s]
-  Vec3 gravity = Vec3::Zero();           ///< [m/s^2]
-  double start_time = 0;                 ///< [s] when it begins to move
-  double courant = 0.8;                  ///< share of the computed stable step that is used, in (0, 1]
-  double linear_viscosity = 0.06;        ///< bulk viscosity against ringing of shocks, on compression only
+  std::optional<RadialMotion> radial;    ///< added to it
+  bool moves() const { return !initial_velocity.isZero(0.0) || radial; }
+  Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
+  double start_time = 0;           ///< [s] when it begins to move
+  double courant = 0.8;            ///< share of the computed stable step that is used, in (0, 1]
+  double linear_viscosity = 0.06;  ///< bulk viscosity against ringing of shocks, on compression only
   double quadratic_viscosity = 1.2;
 };
 template <class Visit>
@@ -100,6 +104,10 @@ void describe(Settings& structure, Visit&& visit) {
         {.name = "wet", .values = "list of faces", .meaning = "those that the water touches; needed where there are bodies"});
   visit(ByHand{}, {.name = "loads", .rule = "[]", .values = "list of tables", .meaning = "pressure histories on faces"});
   visit(structure.initial_velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
+  visit(ByHand{}, {.name = "radial",
+                   .rule = "none",
+                   .values = "a [table](#radial-motion)",
+                   .meaning = "at the start, towards or away from a point or an axis; added to `velocity`"});
   visit(structure.courant, {.name = "courant", .range = Range::above(0, 1), .meaning = "share of the computed stable step"});
   visit(structure.linear_viscosity,
         {.name = "linear_viscosity", .range = Range::between(0, 10), .meaning = "bulk viscosity against ringing"});

@@ -240,6 +240,8 @@ struct Structure::Implementation {
           for (int d = 0; d < 3; ++d)
             if (support.fixed[d]) inverse_mass[node][d] = 0.0;
     velocity.assign(n, settings.initial_velocity);
+    if (settings.radial)
+      for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.radial->at(grid.nodes[i]);
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;

@@ -96,9 +96,9 @@ class Pairing {
       refuse("start.time", "the donor ends at " + microseconds(donor_.end_time) + ", before start.time = " +
                                microseconds(*scene_.start.time) + "; take an earlier time, or raise the donor's end_time");
     for (const solid::Body& solid : donor_.solids.bodies)
-      if (solid.velocity.norm() > 0 || solid.spin.norm() > 0 || solid.residual_stress != 0)
+      if (solid.moves() || solid.residual_stress != 0)
         refuse("start.from", "the donor's solid '" + solid.name + "' is not at rest, and only fluids are laid over");
-    if (donor_.structure && donor_.structure->initial_velocity.norm() > 0)
+    if (donor_.structure && donor_.structure->moves())
       refuse("start.from", "the donor's structure is not at rest, and only fluids are laid over");
   }
 

@@ -186,7 +186,7 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
   const std::vector<sph::Body>& bodies = scene.fluid.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const sph::Body& body = bodies[b];
-    if (body.velocity.norm() > 0 || body.radial_velocity != 0)
+    if (body.moves())
       refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
     if (std::find(in_motion.begin(), in_motion.end(), b) != in_motion.end()) continue;
     if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
@@ -196,7 +196,7 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
                         " Pa, but all else must stay at rest" + remedy);
   }
   for (const solid::Body& solid : scene.solids.bodies) {
-    if (solid.velocity.norm() > 0 || solid.spin.norm() > 0) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
+    if (solid.moves()) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
     if (solid.residual_stress != 0)
       refuse(scene, "'" + solid.name + "' begins under stress, but all else must stay at rest" + remedy);
   }
@@ -204,7 +204,7 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
     if (moves_by_itself(obstacle))
       refuse(scene, "obstacle '" + obstacle.name + "' moves by itself, but all else must be at rest" + remedy);
   if (!scene.structure) return;
-  if (scene.structure->initial_velocity.norm() > 0)
+  if (scene.structure->moves())
     refuse(scene, "the structure must be at rest, but it has a velocity; take start.kind = \"plain\"");
   // The wet face has what the medium has beyond the surroundings.
   const auto [least, most] = pressures_at_rest(medium, scene);

@@ -61,6 +61,8 @@ std::string element_path(const char* list, const Node& element, std::size_t inde
 /// it was good.
 bool read_fluid_material(const Node& node, const std::string& path, Draft& draft, materials::Fluid& into);
 bool read_solid_material(const Node& node, const std::string& path, Draft& draft, materials::Solid& into);
+/// radial = {...} of a body, a solid or the structure.
+void read_radial(const TableReader& table, std::optional<RadialMotion>& into);
 /// All of [materials], used or not.
 void read_own_materials(Draft& draft);
 

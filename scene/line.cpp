@@ -178,9 +178,9 @@ class Builder {
                       body.material.law);
   }
   bool rests(const LineLayer& layer) const {
-    if (layer.is_solid) return scene_.solids.bodies[layer.index].velocity.isZero();
+    if (layer.is_solid) return !scene_.solids.bodies[layer.index].moves();
     const sph::Body& body = scene_.fluid.bodies[layer.index];
-    return !body.start && !body.burn && body.velocity.isZero() && body.radial_velocity == 0;
+    return !body.start && !body.burn && !body.moves();
   }
 
   void look_ahead() {

@@ -93,7 +93,7 @@ double burn_width(double spacing, const Vec3& origin, const Primitive& shape, in
 
 /// A level that is given as a number: the coordinate along gravity.
 void read_level(const TableReader& table, const Vec3& gravity, sph::Body& body) {
-  if (!table.has("level") || !table.find("level")->is_number()) return;
+  if (!table.has("level") || table.find("level")->kind == Node::Kind::array) return;
   double height = 0;
   if (!table.read("level", height)) return;
   body.level = Vec3::Zero();
@@ -217,6 +217,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   body.variable_h = material_good && is_gas(body.material.law);
   read_fields(table, body);
   read_level(table, draft.scene.fluid.gravity, body);
+  read_radial(table, body.radial);
   if (const Node* shape = table.find("shape"))
     shape_good = read_shape(*shape, table.path_of("shape"), table.dimension(), shape_names(), report, body.shape.base);
   read_subtractions(table, draft, index, body.shape.removed);

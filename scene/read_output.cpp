@@ -88,7 +88,7 @@ void check_wave(const TableReader& table, const TableReader& top, Draft& draft) 
     return;
   }
   for (const sph::Body& body : bodies)
-    if ((body.name == start.body || start.body.empty()) && (body.velocity.norm() > 0 || body.burn))
+    if ((body.name == start.body || start.body.empty()) && (body.moves() || body.burn))
       table.complain("body", "start.kind = \"plane_wave\": bodies." + body.name + " must be at rest and not burn");
 }
 

@@ -20,6 +20,7 @@ solid::Body read_solid(const Node& node, const std::string& path, Draft& draft, 
   const bool round = shape_good && is_round(solid.shape.base, dimension);
   if (round) solid.lattice = LatticeType::rings;
   read_fields(table, solid);
+  read_radial(table, solid.radial);
   read_subtractions(table, draft, draft.scene.fluid.bodies.size() + index, solid.shape.removed);
   if (const Node* material = table.find("material"))
     read_solid_material(*material, table.path_of("material"), draft, solid.material);

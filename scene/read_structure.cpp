@@ -145,6 +145,7 @@ void read_structure(Draft& draft) {
   const TableReader table(*node, "structure", "structure", 3, draft.report);
   fem::Settings structure;
   read_fields(table, structure);
+  read_radial(table, structure.radial);
   draft.structure_shape_good = read_mesh(table, draft, structure.element, structure.mesh);
   if (const Node* material = table.find("material"))
     read_solid_material(*material, table.path_of("material"), draft, structure.material);

@@ -86,9 +86,18 @@ class Judge {
         object("planes." + std::to_string(k) + ".axis", "a rigid plane must lie across the axis of revolution, " + axis_);
   }
 
+  void of_motion(const std::string& path, const std::optional<RadialMotion>& motion) {
+    if (!motion) return;
+    if (!is_on_axis(motion->center))
+      object(path + ".radial", "its centre " + words(motion->center) + " m lies off the axis of revolution");
+    if (motion->about != RadialMotion::About::point && int(motion->about) != line_.axis)
+      object(path + ".radial", "it is about another axis than that of revolution, " + axis_);
+  }
+
   void of_body(const sph::Body& body) {
     const std::string path = "bodies." + body.name;
     of_shape(path, body.shape);
+    of_motion(path, body.radial);
     if (!is_along(body.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
     if (body.radial_velocity != 0.0 && std::holds_alternative<TubeShape>(body.shape.base))
       object(path + ".radial_velocity", "it points away from the middle of the shape, which a tube of revolution does not have");
@@ -117,6 +126,7 @@ class Judge {
     } else if (const auto& read = std::get<fem::GmshMesh>(structure.mesh).read; !read || !is_quadrangle(read->cells.at(0))) {
       object(path, "its mesh is one of hexahedra in space; mesh its meridian with quadrangles, or take \"tube\" or \"rod\"");
     }
+    of_motion("structure", structure.radial);
     if (!is_along(structure.initial_velocity)) object("structure.velocity", "it must be along the axis of revolution, " + axis_);
     for (const fem::Support& support : structure.supports) {
       const int a = (line_.axis + 1) % 3, b = (line_.axis + 2) % 3;
@@ -131,6 +141,7 @@ class Judge {
   void of_solid(const solid::Body& solid) {
     const std::string path = "solids." + solid.name;
     of_shape(path, solid.shape);
+    of_motion(path, solid.radial);
     if (!is_along(solid.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
     if (!solid.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (solid.residual_stress != 0.0) object(path + ".residual_stress", "it is there for cylinders in two and three dimensions");
@@ -211,10 +222,18 @@ std::shared_ptr<const sph::StartField> meridian_of(std::shared_ptr<const sph::St
   return field;
 }
 
+std::optional<RadialMotion> meridian_of(std::optional<RadialMotion> motion, const Meridian& line) {
+  if (!motion) return motion;
+  motion->center = line.place(motion->center);
+  if (motion->about != RadialMotion::About::point) motion->about = RadialMotion::About(axial);
+  return motion;
+}
+
 sph::Body meridian_of(const sph::Body& body, const Meridian& line) {
   sph::Body meridian = body;
   meridian.shape = meridian_of(body.shape, line);
   meridian.velocity = line.vector(body.velocity, line.outward());
+  meridian.radial = meridian_of(body.radial, line);
   if (meridian.burn) meridian.burn->origin = line.place(body.burn->origin);
   if (meridian.level) *meridian.level = line.place(*body.level);
   meridian.start = meridian_of(body.start, line);
@@ -246,6 +265,7 @@ fem::Settings meridian_of(const fem::Settings& structure, const Meridian& line) 
       meridian.mesh);
   const auto vector = [&](const Vec3& v) { return line.vector(v, line.outward()); };
   meridian.initial_velocity = vector(structure.initial_velocity);
+  meridian.radial = meridian_of(structure.radial, line);
   meridian.gravity = vector(structure.gravity);
   const int outward = (line.axis + 1) % 3;
   for (fem::Support& support : meridian.supports) {
@@ -264,6 +284,7 @@ solid::Body meridian_of(const solid::Body& solid, const Meridian& line) {
   meridian.shape = meridian_of(solid.shape, line);
   meridian.lattice = sph::LatticeType::cartesian;
   meridian.velocity = line.vector(solid.velocity, line.outward());
+  meridian.radial = meridian_of(solid.radial, line);
   if (std::holds_alternative<Cone>(solid.shape.base)) return meridian;
   const bool tube = std::holds_alternative<TubeShape>(solid.shape.base);
   for (std::string& face : meridian.wet) {

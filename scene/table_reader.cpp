@@ -6,6 +6,7 @@
 
 #include "scene/numbers.hpp"
 #include "scene/suggestion.hpp"
+#include "scene/units.hpp"
 
 namespace undex::scene {
 namespace {
@@ -89,17 +90,30 @@ bool TableReader::in_range(const char* key, const Node& at, double value) const 
   return false;
 }
 
+std::optional<double> TableReader::number(const char* key, const Node& at, const std::string& wanted) const {
+  std::optional<double> value;
+  if (at.is_number()) {
+    value = at.number;
+  } else if (at.kind == Node::Kind::text) {
+    const Converted converted = in_unit(at.text, section_.find(key)->unit);
+    if (!converted.value) report_.add(at, path_of(key) + " = \"" + at.text.substr(0, 60) + "\" " + converted.flaw);
+    value = converted.value;
+    if (!value) return {};
+  } else {
+    wrong_type(key, at, wanted);
+    return {};
+  }
+  if (!in_range(key, at, *value)) return {};
+  return value;
+}
+
 bool TableReader::read(const char* key, double& into) const {
   const Node* found = find(key);
   if (!found) return false;
-  if (!found->is_number()) {
-    const std::string unit = section_.find(key)->unit;
-    wrong_type(key, *found, "a number" + (unit.empty() ? "" : " in " + unit));
-    return false;
-  }
-  if (!in_range(key, *found, found->number)) return false;
-  into = found->number;
-  return true;
+  const std::string unit = section_.find(key)->unit;
+  const auto value = number(key, *found, "a number" + (unit.empty() ? "" : " in " + unit));
+  if (value) into = *value;
+  return value.has_value();
 }
 
 bool TableReader::read(const char* key, std::optional<double>& into) const {
@@ -154,12 +168,9 @@ bool TableReader::read(const char* key, std::vector<double>& into) const {
   }
   std::vector<double> values;
   for (const Node& item : found->items) {
-    if (!item.is_number()) {
-      wrong_type(key, item, "an array of numbers");
-      return false;
-    }
-    if (!in_range(key, item, item.number)) return false;
-    values.push_back(item.number);
+    const auto value = number(key, item, "an array of numbers");
+    if (!value) return false;
+    values.push_back(*value);
   }
   into = values;
   return true;
@@ -187,10 +198,10 @@ bool TableReader::read(const char* key, std::vector<std::string>& into) const {
 bool TableReader::read(const char* key, Vec3& into) const {
   const Node* found = find(key);
   if (!found) return false;
-  if (dimension_ == 1 && found->is_number()) {
-    if (!in_range(key, *found, found->number)) return false;
-    into = Vec3(found->number, 0, 0);
-    return true;
+  if (dimension_ == 1 && found->kind != Node::Kind::array) {
+    const auto value = number(key, *found, "a number, or an array of 1 (or 3)");
+    if (value) into = Vec3(*value, 0, 0);
+    return value.has_value();
   }
   const std::string wanted = dimension_ == 3
                                  ? "an array of 3 numbers"
@@ -204,12 +215,9 @@ bool TableReader::read(const char* key, Vec3& into) const {
   Vec3 value = Vec3::Zero();
   for (std::size_t a = 0; a < found->items.size(); ++a) {
     const Node& item = found->items[a];
-    if (!item.is_number()) {
-      wrong_type(key, item, wanted);
-      return false;
-    }
-    if (!in_range(key, item, item.number)) return false;
-    if (static_cast<int>(a) < dimension_) value[static_cast<Eigen::Index>(a)] = item.number;
+    const auto component = number(key, item, wanted);
+    if (!component) return false;
+    if (static_cast<int>(a) < dimension_) value[static_cast<Eigen::Index>(a)] = *component;
   }
   into = value;
   return true;

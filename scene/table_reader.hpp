@@ -76,6 +76,8 @@ class TableReader {
  private:
   void wrong_type(const char* key, const Node& found, const std::string& wanted) const;
   bool in_range(const char* key, const Node& at, double value) const;
+  /// A number, or a text of a number with a unit in that of the key; else a complaint.
+  std::optional<double> number(const char* key, const Node& at, const std::string& wanted) const;
 
   const Node& node_;
   std::string path_;

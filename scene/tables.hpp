@@ -45,6 +45,7 @@ void for_each_table(auto&& visit) {
   visit("start", "", all_defaults<Start>(), "");
   visit("bodies", "", all_defaults<sph::Body>(), "");
   visit("burn", "", all_defaults<materials::ProgrammedBurn>(), "");
+  visit("radial", "", all_defaults<RadialMotion>(), "");
   visit("walls", "", all_defaults<sph::Wall>(), "");
   visit("structure", "", all_defaults<fem::Settings>(), "");
   visit("supports", "", all_defaults<fem::Support>(), "");

@@ -90,10 +90,17 @@ void put_solid_material(Writer& writer, const std::string& header, const Solid& 
   }
 }
 
+void put_radial(Writer& writer, const std::string& owner, const std::optional<RadialMotion>& motion) {
+  if (!motion) return;
+  writer.table("[" + owner + ".radial]", "radial");
+  writer.fields(*motion);
+}
+
 void put_body(Writer& writer, const sph::Body& body) {
   writer.table("[[bodies]]", "bodies");
   writer.fields(body);
   put_shape(writer, "[bodies.shape]", body.shape.base);
+  put_radial(writer, "bodies", body.radial);
   put_fluid_material(writer, "[bodies.material]", body.material);
   if (!std::holds_alternative<Jwl>(body.material.law)) return;
   writer.table("[bodies.burn]", "burn");
@@ -124,6 +131,7 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
   writer.table("[structure]", "structure");
   writer.fields(structure);
   std::visit([&](const auto& mesh) { put_mesh(writer, mesh); }, structure.mesh);
+  put_radial(writer, "structure", structure.radial);
   put_solid_material(writer, "structure.material", structure.material);
   for (const fem::Support& support : structure.supports) {
     writer.table("[[structure.supports]]", "supports");
@@ -139,6 +147,7 @@ void put_solid(Writer& writer, const solid::Body& solid) {
   writer.table("[[solids]]", "solids");
   writer.fields(solid);
   put_shape(writer, "[solids.shape]", solid.shape.base);
+  put_radial(writer, "solids", solid.radial);
   put_solid_material(writer, "solids.material", solid.material);
 }
 

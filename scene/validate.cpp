@@ -49,6 +49,7 @@ void Validator::run() {
   structure();
   solids();
   mirrors();
+  motions();
   planes();
   obstacles();
   thin_walls();

@@ -81,6 +81,10 @@ class Validator {
   void mirrored_structure();
   void mirrored_burn(const sph::Body& body, const Node& node);
 
+  // validate_motion.cpp
+  void motions();
+  void motion(const RadialMotion& motion, const std::string& path, const Node& node, const Depth& solid, const Bounds& extent);
+
   // validate_obstacles.cpp
   void obstacles();
   bool has_size_of_water(const coupling::Obstacle& one, const Node& node);

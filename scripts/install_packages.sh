@@ -14,6 +14,7 @@ packages=(
   libxxhash-dev          # checksums of checkpoints and evidence
   libeigen3-dev          # small vectors and tensors
   libtomlplusplus-dev    # scene files
+  libudunits2-dev        # values with units in them
   libcli11-dev           # command line
   nlohmann-json3-dev     # summary.json
   libgtest-dev           # tests

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/radial_motion.hpp"
 #include "core/record.hpp"
 #include "core/shapes.hpp"
 #include "materials/burn.hpp"
@@ -174,7 +175,10 @@ struct Body {
   bool variable_h = false;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
-  std::optional<Vec3> level{};              ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
+  std::optional<RadialMotion> radial;       ///< added too
+
+  bool moves() const { return !velocity.isZero(0.0) || radial_velocity != 0 || radial; }
+  std::optional<Vec3> level{};  ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
 };
 
 template <class Visit>
@@ -203,6 +207,10 @@ void describe(Body& body, Visit&& visit) {
         {.name = "radial_velocity",
          .unit = "m/s",
          .meaning = "at the start, away from the middle of the shape (negative: towards it); added to `velocity`"});
+  visit(ByHand{}, {.name = "radial",
+                   .rule = "none",
+                   .values = "a [table](#radial-motion)",
+                   .meaning = "at the start, towards or away from a point or an axis; added to `velocity`"});
   visit(body.pressure, {.name = "pressure",
                         .unit = "Pa",
                         .values = "attainable",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/radial_motion.hpp"
 #include "core/record.hpp"
 #include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
@@ -34,6 +35,8 @@ struct Body {
   sph::LatticeType lattice = sph::LatticeType::cartesian;  ///< fitted to the body's own shape, always; rings: cylinders and tubes
   Vec3 velocity = Vec3::Zero();                            ///< [m/s]
   Vec3 spin = Vec3::Zero();                                ///< [rad/s], about the middle of the shape
+  std::optional<RadialMotion> radial;                      ///< added to both
+  bool moves() const { return !velocity.isZero(0.0) || !spin.isZero(0.0) || radial; }
   /// Stress in equilibrium at the start, of discs and cylinders: with R the radius, S (1 - r^2/R^2) radial and
   /// S (1 - 3 r^2/R^2) along the circumference (quenching leaves such a stress) [Pa].
   double residual_stress = 0;
@@ -75,6 +78,10 @@ void describe(Body& solid, Visit&& visit) {
   visit(solid.velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
   visit(solid.spin,
         {.name = "spin", .unit = "rad/s", .form = Form::turn, .meaning = "at the start, about the middle of the shape"});
+  visit(ByHand{}, {.name = "radial",
+                   .rule = "none",
+                   .values = "a [table](#radial-motion)",
+                   .meaning = "at the start, towards or away from a point or an axis; added to `velocity`"});
   visit(solid.residual_stress,
         {.name = "residual_stress",
          .unit = "Pa",

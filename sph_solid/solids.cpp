@@ -105,8 +105,10 @@ void Solids::Implementation::fill() {
 
 void Solids::Implementation::start_motion(const SolidGroup& group) {
   const Vec3 middle = middle_of(group.body->shape, around.dimension);
-  for (std::uint32_t i = group.begin; i < group.end; ++i)
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
     particles.v[i] = group.body->velocity + group.body->spin.cross(particles.x[i] - middle);
+    if (group.body->radial) particles.v[i] += group.body->radial->at(particles.x[i]);
+  }
 }
 
 void Solids::Implementation::start_stress(const SolidGroup& group) {

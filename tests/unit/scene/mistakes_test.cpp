@@ -29,7 +29,7 @@ density = "1"
             "2:1: unknown key 'end_tme' at the top of the file; did you mean 'end_time'?\n"
             "4:11: resolution.spacing = -0.01 [m] must be greater than 0 and at most 1e+05\n"
             "8:12: bodies.left.material: unknown material 'aer'; did you mean 'air'? ('undex materials' lists them)\n"
-            "9:11: bodies.left.density must be a number in kg/m^3, not the text \"1\"\n");
+            "9:11: bodies.left.density = \"1\" has no unit: write the number without quotes, or name its unit\n");
 }
 
 struct Mistake {

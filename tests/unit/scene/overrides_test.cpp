@@ -40,6 +40,12 @@ TEST(Overrides, NumbersListsWordsAndTables) {
 
 TEST(Overrides, TheLastOneCounts) { EXPECT_EQ(read_text(two_gases, {{"end_time", "1"}, {"end_time", "2"}}).end_time, 2); }
 
+TEST(Overrides, ValuesMayCarryAUnit) {
+  const Scene scene = read_text(two_gases, {{"end_time", "2 us"}, {"resolution.spacing", "5mm"}});
+  EXPECT_EQ(scene.end_time, 2e-6);
+  EXPECT_EQ(scene.fluid.lattice.spacing, 0.005);
+}
+
 TEST(Overrides, MistakesNameTheOption) {
   const auto expect = [](const Override& given, const std::string& expected) {
     EXPECT_EQ(mistakes(coupled_tube, {given}), expected);
@@ -47,8 +53,7 @@ TEST(Overrides, MistakesNameTheOption) {
   expect({"resolution.spcing", "1"}, "-P resolution.spcing: unknown key 'spcing' in resolution; did you mean 'spacing'?\n");
   expect({"resolutoin.spacing", "1"},
          "-P resolutoin.spacing: unknown key 'resolutoin' at the top of the file; did you mean 'resolution'?\n");
-  expect({"resolution.spacing", "2mm"},
-         "-P resolution.spacing: resolution.spacing must be a number in m, not the text \"2mm\"\n");
+  expect({"resolution.spacing", "2ms"}, "-P resolution.spacing: resolution.spacing = \"2ms\" is none in units of m\n");
   expect({"resolution.spacing", "-1"},
          "-P resolution.spacing: resolution.spacing = -1 [m] must be greater than 0 and at most 1e+05\n");
   expect({"bodies.watr.pressure", "1"}, "-P bodies.watr.pressure: nothing in bodies is named 'watr'; did you mean 'water'?\n");

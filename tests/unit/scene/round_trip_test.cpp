@@ -40,6 +40,7 @@ name = "gas"
 shape = {type = "sphere", radius = 1}
 material = {law = "ideal_gas", rho0 = 1, gamma = 1.4}
 radial_velocity = -1
+radial = {speed = 2, radius = 0.5, power = 0.25, about = "z", center = [0.125, 0.25]}
 [comparison]
 kind = "profile"
 solution = "noh"
