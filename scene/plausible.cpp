@@ -101,8 +101,8 @@ void check_units(const TableReader& table, const Solid& solid) {
   if (solid.spall) expect_unit(table, "spall", table.path_of("spall") + ".strength", what, usual_strength, solid.spall->strength);
 }
 
-/// Moduli, of gels to diamond, are told by the wave speed that they make.
-void check_moduli(const TableReader& table, const Solid& solid, double wave_speed) {
+/// Moduli, of gels to diamond, are told by the wave speed that they make with the density [kg/m^3] that is meant.
+void check_moduli(const TableReader& table, const Solid& solid, double density, double wave_speed) {
   if (wave_speed > 30 && wave_speed < 1e5) return;
   const char* key = table.has("young_modulus") ? "young_modulus" : "shear_modulus";
   double value = solid.shear_modulus;
@@ -111,8 +111,8 @@ void check_moduli(const TableReader& table, const Solid& solid, double wave_spee
     const double sound = wave_speed * std::sqrt(other.factor);
     if (sound < 800 || sound > 2e4) continue;
     table.complain(key, table.path_of(key) + " = " + shortest(value) + " [Pa] makes a wave speed of " + rounded(wave_speed) +
-                            " m/s with rho0 = " + rounded(solid.rho0) + " kg/m^3; is it in " + other.unit +
-                            "? In Pa it would be " + rounded(value * other.factor));
+                            " m/s with rho0 = " + rounded(density) + " kg/m^3; is it in " + other.unit + "? In Pa it would be " +
+                            rounded(value * other.factor));
     return;
   }
 }
@@ -156,7 +156,9 @@ void expect_plausible(const TableReader& table, const Solid& solid, Report& warn
   const double G = solid.shear_modulus, sound = std::sqrt((K + 4 * G / 3) / solid.rho0);
   const std::size_t before = table.report().size();
   check_units(table, solid);
-  if (table.report().size() == before) check_moduli(table, solid, sound);
+  const Usual::Other* other = usual_density.holds(solid.rho0) ? nullptr : usual_density.likely(solid.rho0);
+  const double density = solid.rho0 * (other ? other->factor : 1);
+  check_moduli(table, solid, density, std::sqrt((K + 4 * G / 3) / density));
   if (table.report().size() > before) return;
   const double poisson = (3 * K - 2 * G) / (2 * (3 * K + G));
   if (poisson < -0.01 || poisson >= 0.5)

@@ -129,6 +129,8 @@ TEST(Plausibility, OtherUnitsOfSolidsAreGuessed) {
   refused(steel("rho0 = 7800", "rho0 = 7.8e-9"), "is it in t/mm^3? In kg/m^3 it would be 7800");
   refused(steel("210e9", "210"), "young_modulus = 210 [Pa] makes a wave speed of 0.19");
   refused(steel("210e9", "210"), "is it in GPa? In Pa it would be 2.1e+11");
+  refused(with(steel("210e9", "210000"), "rho0 = 7800", "rho0 = 7.8e-9"),
+          "with rho0 = 7800 kg/m^3; is it in MPa? In Pa it would be");
   refused(steel("210e9", "210000"), "is it in MPa? In Pa it would be 2.1e+11");
   refused(steel("210e9", "2.1"), "is it in Mbar? In Pa it would be 2.1e+11");
   refused(steel("Y0 = 350e6", "Y0 = 350"),
