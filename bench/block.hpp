@@ -89,8 +89,13 @@ inline sph::Settings block(const Variant& variant, double particles, int threads
   settings.symmetry.axis[0] = rings;
   settings.lattice.spacing = spacing;
   settings.lattice.jitter = 0.05;
-  settings.bodies = {
-      {"water", Shape{cube, {}}, water, {}, Vec3::Zero(), {}, {}, {}, {}, false, std::make_shared<const sph::StartField>(wave)}};
+  sph::Body body;
+  body.name = "water";
+  body.shape = Shape{cube, {}};
+  body.material = water;
+  body.variable_h = false;
+  body.start = std::make_shared<const sph::StartField>(wave);
+  settings.bodies = {body};
   settings.walls = {wall};
   settings.numerics = variant.numerics;
   settings.numerics.threads = threads;

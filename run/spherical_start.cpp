@@ -186,8 +186,7 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
   const std::vector<sph::Body>& bodies = scene.fluid.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const sph::Body& body = bodies[b];
-    if (body.moves())
-      refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
+    if (body.moves()) refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
     if (std::find(in_motion.begin(), in_motion.end(), b) != in_motion.end()) continue;
     if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
     const double p = start_pressure(body), rest = at_rest(place_of_pressure(body, scene)).pressure;

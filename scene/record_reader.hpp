@@ -25,7 +25,8 @@ inline bool read(const TableReader&, const Key&, ByHand&) { return true; }
 inline bool read(const TableReader&, const Key&, std::vector<Primitive>&) { return true; }  // read_subtractions
 inline bool read(const TableReader& table, const Key& key, std::optional<Vec3>& into) {
   Vec3 value = Vec3::Zero();
-  if (key.form == Form::height && table.has(key.name) && table.find(key.name)->kind != Node::Kind::array) return true;  // read_level
+  if (key.form == Form::height && table.has(key.name) && table.find(key.name)->kind != Node::Kind::array)
+    return true;  // read_level
   if (!table.read(key.name, value)) return false;
   into = value;
   return true;

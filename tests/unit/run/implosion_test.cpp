@@ -20,7 +20,7 @@ threads = 1
 [structure]
 name = "shell"
 shape = {type = "tube", axis = "z", inner_radius = 0.08, outer_radius = 0.1, low = 0, high = 0.01}
-cells = {through = 20, along = 2, around = 4}
+cells = {through = 20, along = 2, around = 8}
 material = {rho0 = 1845, young_modulus = 300e9, poisson_ratio = 0.1, flow = {law = "linear_hardening", Y0 = 330e6, H = 0}}
 supports = [{face = "low", fixed = ["z"]}, {face = "high", fixed = ["z"]}]
 radial = {about = "z", radius = 0.08, power = -1, speed = )" +

@@ -46,6 +46,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
        "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, "
+       "radial, "
        "pressure, "
        "level, density, energy, burn, variable_h\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),

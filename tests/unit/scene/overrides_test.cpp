@@ -41,7 +41,7 @@ TEST(Overrides, NumbersListsWordsAndTables) {
 TEST(Overrides, TheLastOneCounts) { EXPECT_EQ(read_text(two_gases, {{"end_time", "1"}, {"end_time", "2"}}).end_time, 2); }
 
 TEST(Overrides, ValuesMayCarryAUnit) {
-  const Scene scene = read_text(two_gases, {{"end_time", "2 us"}, {"resolution.spacing", "5mm"}});
+  const Scene scene = read_text(two_gases, {{"end_time", "\"2 us\""}, {"resolution.spacing", "5mm"}});
   EXPECT_EQ(scene.end_time, 2e-6);
   EXPECT_EQ(scene.fluid.lattice.spacing, 0.005);
 }
