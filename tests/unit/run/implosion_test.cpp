@@ -27,8 +27,8 @@ radial = {about = "z", radius = 0.08, power = -1, speed = )" +
          std::to_string(speed) + "}\n" + more;
 }
 
-/// Plastic work [J] of a shell of a rigid, perfectly plastic metal, as thick as it is long, when its inner radius is r: each ring keeps
-/// its area and is strained by 2/sqrt(3) ln(R/r).
+/// Plastic work [J] of a shell of a rigid, perfectly plastic metal when its inner radius is r: each ring keeps its area and is
+/// strained by 2/sqrt(3) ln(R/r).
 double plastic_work(double r) {
   constexpr int rings = 2000;
   double work = 0;
