@@ -307,6 +307,24 @@ def structure_sections(folder, stem="structure"):
     return [(entry["time"], folder / entry["name"]) for entry in json.loads(index.read_text())["files"]]
 
 
+def cut_edges(points, height, level, a, b):
+    """The places where the edges from points `a` to points `b` pass that height."""
+    crossed = (height[a] <= level) != (height[b] <= level)
+    a, b = a[crossed], b[crossed]
+    share = ((level - height[a]) / (height[b] - height[a]))[:, None]
+    return points[a] + share * (points[b] - points[a])
+
+
+def with_mirror_images(shapes, plane_axes, mirror):
+    """Shapes in the plane, and their images across the symmetry planes."""
+    for k, axis in enumerate(plane_axes):
+        if axis in mirror:
+            sign = np.ones(2)
+            sign[k] = -1
+            shapes = shapes + [shape * sign for shape in shapes]
+    return shapes
+
+
 def structure_polygons(path, normal, plane_axes, mirror):
     """The cells of a structure that the plane through the origin cuts (or touches), as quadrilaterals in the plane."""
     import h5py
@@ -323,22 +341,13 @@ def structure_polygons(path, normal, plane_axes, mirror):
     level = 1e-3 * np.median(size)
     polygons = []
     for cell in cells[(low <= level) & (high > level)]:
-        a, b = cell[edges[:, 0]], cell[edges[:, 1]]
-        crossed = (height[a] <= level) != (height[b] <= level)
-        if crossed.sum() < 3:
+        corners = cut_edges(points, height, level, cell[edges[:, 0]], cell[edges[:, 1]])[:, plane_axes]
+        if len(corners) < 3:
             continue
-        a, b = a[crossed], b[crossed]
-        share = ((level - height[a]) / (height[b] - height[a]))[:, None]
-        corners = (points[a] + share * (points[b] - points[a]))[:, plane_axes]
         middle = corners.mean(axis=0)
         order = np.argsort(np.arctan2(*(corners - middle).T))
         polygons.append(corners[order])
-    for k, axis in enumerate(plane_axes):
-        if axis in mirror:
-            sign = np.ones(2)
-            sign[k] = -1
-            polygons += [polygon * sign for polygon in polygons]
-    return polygons
+    return with_mirror_images(polygons, plane_axes, mirror)
 
 
 def surface_segments(path, normal, plane_axes, mirror):
@@ -357,19 +366,10 @@ def surface_segments(path, normal, plane_axes, mirror):
         if len(face) == 2:
             segments.append(points[face][:, plane_axes])
             continue
-        a, b = face, np.roll(face, -1)
-        crossed = (height[a] <= level) != (height[b] <= level)
-        if crossed.sum() != 2:
-            continue
-        a, b = a[crossed], b[crossed]
-        share = ((level - height[a]) / (height[b] - height[a]))[:, None]
-        segments.append((points[a] + share * (points[b] - points[a]))[:, plane_axes])
-    for k, axis in enumerate(plane_axes):
-        if axis in mirror:
-            sign = np.ones(2)
-            sign[k] = -1
-            segments += [segment * sign for segment in segments]
-    return segments
+        ends = cut_edges(points, height, level, face, np.roll(face, -1))
+        if len(ends) == 2:
+            segments.append(ends[:, plane_axes])
+    return with_mirror_images(segments, plane_axes, mirror)
 
 
 def particle_sizes(step, spacing, count, dimension=3):

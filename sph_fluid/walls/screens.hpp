@@ -16,9 +16,6 @@
 
 namespace undex::sph {
 
-/// Cosine between normals of faces that look the same way.
-constexpr double alike = 0.3;
-
 /// What a straight way meets.
 struct Way {
   static constexpr double same = 1e-9;  ///< share of a way within which it meets walls at one place

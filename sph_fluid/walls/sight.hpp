@@ -26,7 +26,6 @@
 #include "sph_fluid/walls/mirror_feet.hpp"
 #include "sph_fluid/walls/moving_walls.hpp"
 #include "sph_fluid/walls/screens.hpp"
-#include "sph_fluid/walls/sheets.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_fluid/walls/thin_walls.hpp"
 

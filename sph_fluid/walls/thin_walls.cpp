@@ -8,7 +8,6 @@
 #include "core/surface.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/walls/face_copies.hpp"
-#include "sph_fluid/walls/screens.hpp"
 
 namespace undex::sph {
 namespace {

@@ -13,6 +13,9 @@
 
 namespace undex::sph {
 
+/// Cosine between normals of faces that look the same way.
+constexpr double alike = 0.3;
+
 class ThinWalls {
  public:
   /// Finds them where walls have moved since they were sought; `reach` [m] of pairs of liquid, `mirrors` of containers.

@@ -60,6 +60,7 @@ LIBRARY_OWNERS = {
     "H5": ["output"],
     "toml++/": ["core"],
     "CLI/": ["app"],
+    "udunits2.h": ["scene"],
     "xxhash.h": ["output"],
 }
 
