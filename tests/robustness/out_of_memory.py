@@ -3,8 +3,8 @@
 
     out_of_memory.py PROGRAM CASES_FOLDER LIBRARY [tries a scene and way of failing]
 
-LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run,
-which ones UNDEX_SEED says (default: 1).
+LIBRARY (failing_memory.cpp) is preloaded and fails at a call of our choice, alone or for good. The calls are spread over a run and,
+since the start makes most of them, as many over its steps; which ones UNDEX_SEED says (default: 1).
 """
 import json
 import os
@@ -53,23 +53,30 @@ def wrong(code, said, status):
     return None  # a run recorded as done has all of its record: what was left to do then was to say so
 
 
+def calls_of(program, library, scene, folder, counted):
+    """How often a run asks for memory when nothing fails."""
+    code, said, status = attempt(program, library, scene, folder, count=counted)
+    if (code, status) != (0, "done"):
+        sys.exit(f"{scene[0].name}: exit {code}, {status} without any failure: {said}")
+    return int(counted.read_text())
+
+
 def main(program, cases, library, tries):
     mistakes, recorded = [], 0
     chance = random.Random(int(os.environ.get("UNDEX_SEED", "1")))
     with tempfile.TemporaryDirectory(prefix="undex_memory_") as here:
         for name, (case, *changes) in SCENES.items():
             scene, folder, counted = [cases / case, *changes], pathlib.Path(here) / "run", pathlib.Path(here) / "count"
-            code, said, status = attempt(program, library, scene, folder, count=counted)
-            if (code, status) != (0, "done"):
-                sys.exit(f"{name}: exit {code}, {status} without any failure: {said}")
-            calls = int(counted.read_text())
+            calls = calls_of(program, library, scene, folder, counted)
+            in_steps = calls - calls_of(program, library, [*scene, "end_time=1e-12"], folder, counted)
             for way in ("fail_at", "fail_from"):
-                for k in range(tries):
-                    call = FIRST + int((calls - FIRST) * (k + chance.random()) / tries)
-                    end = attempt(program, library, scene, folder, **{way: call})
-                    recorded += end[2] == "failed"
-                    if problem := wrong(*end):
-                        mistakes.append(f"{name}, {way}={call} of {calls}: {problem}")
+                for first, last in ((FIRST, calls), (calls - 2 * in_steps, calls - in_steps)):  # the last of all write the results
+                    for k in range(tries):
+                        call = first + int((last - first) * (k + chance.random()) / tries)
+                        end = attempt(program, library, scene, folder, **{way: call})
+                        recorded += end[2] == "failed"
+                        if problem := wrong(*end):
+                            mistakes.append(f"{name}, {way}={call} of {calls}: {problem}")
     print("\n".join(mistakes))
     if recorded == 0:
         sys.exit("no run recorded its failure: the calls do not reach the steps")
