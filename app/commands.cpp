@@ -143,10 +143,20 @@ int resume_run(const ResumeArguments& arguments) {
   return compute_and_judge(scene, judge, options);
 }
 
-int check_scene(const SceneArguments& arguments) {
+int check_scene(const CheckArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);
   const judge::Judge needs_its_reference(scene);
-  std::printf("%s", run::describe(scene).c_str());
+  const fs::path& picture = arguments.picture;
+  std::string drawing;
+  if (!picture.empty() && picture.extension() != ".svg")
+    throw FileError(picture.string() + ": pictures are drawn as .svg, which browsers show; name a file with that ending");
+  if (!picture.empty() && scene::on_a_line(scene.geometry))
+    throw FileError(picture.string() + ": a scene of one coordinate has no plane to draw; leave --picture out");
+  std::printf("%s", run::describe(scene, picture.empty() ? nullptr : &drawing).c_str());
+  if (picture.empty()) return exit_done;
+  std::ofstream file(picture, std::ios::binary);
+  if (!(file << drawing).flush()) throw FileError(picture.string() + ": cannot be written; check that you may write it");
+  std::printf("picture: %s\n", picture.c_str());
   return exit_done;
 }
 

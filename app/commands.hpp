@@ -27,7 +27,10 @@ struct ResumeArguments {
 };
 
 int resume_run(const ResumeArguments& arguments);
-int check_scene(const SceneArguments& arguments);
+struct CheckArguments : SceneArguments {
+  std::filesystem::path picture;  ///< an .svg to draw the scene in; empty: none
+};
+int check_scene(const CheckArguments& arguments);
 
 struct MaterialsArguments {
   std::string name, kind;  ///< of the sets that are shown; empty: of any

@@ -79,9 +79,11 @@ int dispatch(int argc, char** argv) {
   resume->footer(
       "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). docs/outputs.md");
 
-  SceneArguments check_arguments;
-  CLI::App* check = program.add_subcommand("check", "read a scene and say what its run would be; write nothing");
+  CheckArguments check_arguments;
+  CLI::App* check = program.add_subcommand(
+      "check", "read a scene and say what its run would be; write nothing but a picture that is asked for");
   add_scene_arguments(*check, check_arguments);
+  check->add_option("--picture", check_arguments.picture, "draw the scene at its start in this .svg")->type_name("FILE");
 
   judge::RejudgeOptions judge_options;
   CLI::App* judgement = program.add_subcommand(

@@ -1,5 +1,7 @@
 #include "core/closed_surface.hpp"
 
+#include "core/surface_net.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -190,6 +192,73 @@ struct Mesher {
     if (dimension == 2)
       return c.axis < 2 ? std::optional(flat(c.axis, c.low, c.high, c.center, c.low_radius, c.high_radius)) : std::nullopt;
     return round(c.axis, c.center, c.low, c.high, c.low_radius, c.high_radius);
+  }
+
+  std::optional<WetSurface> operator()(const Ellipsoid& e) const {
+    if (dimension == 1) return interval(e.center[0] - e.semi_axes[0], e.center[0] + e.semi_axes[0]);
+    Builder built(spacing);
+    const double longest = e.semi_axes.head(dimension).maxCoeff();
+    if (dimension == 2) {
+      const int n = count(2 * pi * longest, spacing, 8);
+      const Frame frame{2, Vec3::Zero()};
+      built.line(
+          n,
+          [&](int i) {
+            return Vec3(e.center.cwiseProduct(Vec3(1, 1, 0)) +
+                        on_circle(frame, 1.0, 2 * pi * (i % n) / n, 0.0).cwiseProduct(e.semi_axes));
+          },
+          [&](const Vec3& x) { return Vec3(e.center - x); });
+      return built.take();
+    }
+    int n[3];
+    for (int a = 0; a < 3; ++a) n[a] = count(0.5 * pi * e.semi_axes[a], spacing, 2);
+    const auto slope = [](int i, int of) { return 2 * i == of ? 0.0 : std::tan(0.25 * pi * (2.0 * i / of - 1.0)); };
+    for (int a = 0; a < 3; ++a)
+      for (const double side : {-1.0, 1.0}) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        built.patch(
+            n[b], n[c],
+            [&](int i, int j) {
+              Vec3 way;
+              way[a] = side;
+              way[b] = slope(i, n[b]);
+              way[c] = slope(j, n[c]);
+              return Vec3(e.center + way.normalized().cwiseProduct(e.semi_axes));
+            },
+            [&](const Vec3& x) { return Vec3(e.center - x); });
+      }
+    return built.take();
+  }
+
+  std::optional<WetSurface> operator()(const HalfSpace&) const { return std::nullopt; }
+  std::optional<WetSurface> operator()(const Revolution& r) const { return net(r); }
+  std::optional<WetSurface> operator()(const Stl& stl) const { return dimension == 3 ? net(stl) : std::nullopt; }
+  std::optional<WetSurface> operator()(const Union& of) const { return net(of); }
+  std::optional<WetSurface> operator()(const Intersection& of) const { return net(of); }
+  std::optional<WetSurface> operator()(const Difference& of) const { return net(of); }
+
+  /// The mesh of the shape before the turn, unless it then crosses a plane in which the turned shape is its own image.
+  std::optional<WetSurface> operator()(const Placed& p) const {
+    std::optional<WetSurface> mesh = closed_surface(p.shape[0], spacing, dimension);
+    if (!mesh) return mesh;
+    for (Vec3& x : mesh->nodes) x = p.after(x);
+    for (int a = 0; a < dimension && dimension > 1; ++a) {
+      const bool across = std::any_of(mesh->faces.begin(), mesh->faces.end(), [&](const auto& face) {
+        const auto beside = [&](double side) {
+          return std::any_of(face.begin(), face.end(),
+                             [&](int n) { return side * mesh->nodes[std::size_t(n)][a] > 1e-6 * spacing; });
+        };
+        return beside(1.0) && beside(-1.0);
+      });
+      if (across && is_mirrored(p, a, 0.0, dimension)) return net(p);
+    }
+    return mesh;
+  }
+
+  std::optional<WetSurface> net(const Primitive& shape) const {
+    if (!is_bounded(shape, dimension)) return std::nullopt;
+    return surface_net([&](const Vec3& x) { return signed_distance(shape, x, dimension); }, bounds(shape, dimension), spacing,
+                       dimension);
   }
 
   std::optional<WetSurface> operator()(const TubeShape& t) const {

@@ -1,7 +1,10 @@
 #include "core/mass_properties.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/triangle_surface.hpp"
 
 namespace undex {
 namespace {
@@ -108,6 +111,58 @@ struct Measure {
     Vec3 centroid = c.center;
     centroid[c.axis] = c.low + middle;
     return plane(area, centroid, second + cubes);
+  }
+  MassProperties operator()(const Ellipsoid& e) const {
+    const Vec3& s = e.semi_axes;
+    if (of_revolution) return {4.0 / 3.0 * pi * s[0] * s[0] * s[1], Vec3(0.0, e.center[1], 0.0), Mat3::Zero()};
+    if (dimension == 1) return {2.0 * s[0], Vec3(e.center[0], 0.0, 0.0), Mat3::Zero()};
+    if (dimension == 2) return plane(pi * s[0] * s[1], e.center, 0.25 * pi * s[0] * s[1] * s.head<2>().squaredNorm());
+    MassProperties m{4.0 / 3.0 * pi * s.prod(), e.center, Mat3::Zero()};
+    for (int a = 0; a < 3; ++a) m.inertia(a, a) = 0.2 * m.volume * (s.squaredNorm() - s[a] * s[a]);
+    return m;
+  }
+  MassProperties operator()(const HalfSpace& half) const { return integrated(half); }
+  MassProperties operator()(const Revolution& r) const { return integrated(r); }
+  MassProperties operator()(const Stl& stl) const {
+    const Mat3& moments = stl.read->second_moment();
+    return {stl.read->volume(), stl.read->centroid(), moments.trace() * Mat3::Identity() - moments};
+  }
+  MassProperties operator()(const Union& of) const { return integrated(of); }
+  MassProperties operator()(const Intersection& of) const { return integrated(of); }
+  MassProperties operator()(const Difference& of) const { return integrated(of); }
+  MassProperties operator()(const Placed& p) const {
+    MassProperties m = mass_properties(p.shape[0], dimension, of_revolution);
+    m.centroid = p.after(m.centroid);
+    m.inertia = p.turn * m.inertia * p.turn.transpose();
+    if (dimension < 3) m.inertia(0, 0) = m.inertia(1, 1) = 0;
+    return m;
+  }
+
+  /// By subdivision, as volumes are.
+  MassProperties integrated(const Primitive& of) const {
+    const Shape shape{of, {}};
+    Bounds box = bounds(of, dimension);
+    MassProperties m;
+    if (of_revolution) {
+      box.low[0] = std::max(box.low[0], 0.0);
+      m.volume = volume_of_revolution(shape, box);
+      m.centroid[1] = integral(shape, box, 2, [](const Vec3& x) { return 2.0 * pi * x[0] * x[1]; }) / m.volume;
+      return m;
+    }
+    m.volume = volume(shape, box, dimension);
+    const Vec3 near = middle(of, dimension);
+    for (int a = 0; a < dimension; ++a)
+      m.centroid[a] = near[a] + integral(shape, box, dimension, [&](const Vec3& x) { return x[a] - near[a]; }) / m.volume;
+    const auto second = [&](int a, int b) {
+      return integral(shape, box, dimension, [&](const Vec3& x) { return (x[a] - m.centroid[a]) * (x[b] - m.centroid[b]); });
+    };
+    if (dimension == 2) m.inertia(2, 2) = second(0, 0) + second(1, 1);
+    if (dimension < 3) return m;
+    Mat3 moments;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b) moments(a, b) = moments(b, a) = second(a, b);
+    m.inertia = moments.trace() * Mat3::Identity() - moments;
+    return m;
   }
 };
 

@@ -11,7 +11,8 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();   ///< about it, of a density of 1 kg/m^3 [m^5]; of a plane body about z alone
 };
 
-/// Exact, of a whole shape that ends somewhere. `of_revolution`: a section about x = 0 in the plane, whose ring is meant.
+/// Of a whole shape that ends somewhere: exact for those with a formula, to about 1e-4 for others. `of_revolution`: a section
+/// about x = 0 in the plane, whose ring is meant.
 MassProperties mass_properties(const Primitive& shape, int dimension, bool of_revolution = false);
 
 }  // namespace undex

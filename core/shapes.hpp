@@ -1,6 +1,10 @@
 // Solid shapes as signed distances: what a scene's bodies, charges and containers are made of.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -171,7 +175,176 @@ void describe(Cone& cone, Visit&& visit) {
   describe_ends(cone.axis, cone.low, cone.high, visit);
 }
 
-using Primitive = std::variant<Box, Slab, Sphere, Cylinder, TubeShape, Cone>;
+/// Ellipsoid with its axes along x, y, z [m] (ellipse in 2D, interval in 1D).
+struct Ellipsoid {
+  static constexpr const char* name = "ellipsoid";
+  static constexpr const char* summary = "with its axes along x, y, z; an ellipse in 2D, an interval in 1D";
+  static constexpr bool is_bounded = true, is_container = false;
+  Vec3 center = Vec3::Zero(), semi_axes = Vec3::Ones();
+};
+template <class Visit>
+void describe(Ellipsoid& ellipsoid, Visit&& visit) {
+  visit(ellipsoid.center, {.name = "center", .unit = "m", .range = Range::position(), .meaning = "its middle"});
+  visit(ellipsoid.semi_axes, {.name = "semi_axes",
+                              .unit = "m",
+                              .range = Range::length(),
+                              .needed = true,
+                              .remedy = "give half its length along x, y and z, e.g. semi_axes = [0.1, 0.1, 0.2]",
+                              .values = "lengths, above 0",
+                              .meaning = "half its length along x, y, z"});
+}
+
+/// Everything behind the plane through `point` [m] from which `normal` (of any length) points away.
+struct HalfSpace {
+  static constexpr const char* name = "half_space";
+  static constexpr const char* summary =
+      "everything on one side of a plane; unbounded, so only good to subtract, or in an intersection";
+  static constexpr bool is_bounded = false, is_container = false;
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitX();
+};
+template <class Visit>
+void describe(HalfSpace& half, Visit&& visit) {
+  visit(half.point, {.name = "point", .unit = "m", .range = Range::position(), .meaning = "in the plane"});
+  visit(half.normal, {.name = "normal",
+                      .needed = true,
+                      .remedy = "say which way is out of it, e.g. normal = [1, 0, 0]",
+                      .meaning = "out of it, of any length"});
+}
+
+/// Corners (r, z) of a meridian [m], in turn.
+using Polygon = std::vector<std::array<double, 2>>;
+
+/// The body that a polygon in (r, z) sweeps about `axis` through `center` (its component along the axis is ignored), z counted
+/// along the axis. In 2D scenes, along x or y, its section through the axis.
+struct Revolution {
+  static constexpr const char* name = "revolution";
+  static constexpr const char* summary = "what a polygon in (r, z) sweeps about `axis`; in 2D its section (axis \"x\", \"y\")";
+  static constexpr bool is_bounded = true, is_container = false;
+  int axis = 2;
+  Vec3 center = Vec3::Zero();
+  Polygon points;
+};
+template <class Visit>
+void describe(Revolution& revolution, Visit&& visit) {
+  describe_axis(revolution.axis, revolution.center, visit);
+  visit(revolution.points, {.name = "points",
+                            .unit = "m",
+                            .range = Range::position(),
+                            .needed = true,
+                            .remedy = "give the corners of the meridian, e.g. points = [[0, 0], [0.1, 0], [0, 0.3]]",
+                            .values = "[[r, z], ...], r at least 0",
+                            .meaning = "corners of the meridian in turn, r from the axis, z along it; the last joins the first"});
+}
+
+class TriangleSurface;
+/// The body that a closed surface of triangles encloses, read from an STL file; in three dimensions.
+struct Stl {
+  static constexpr const char* name = "stl";
+  static constexpr const char* summary = "what a closed surface of triangles encloses, ASCII or binary STL; in 3D";
+  static constexpr bool is_bounded = true, is_container = false;
+  std::string file;
+  double scale = 1;
+  std::shared_ptr<const TriangleSurface> read = nullptr;  ///< what the file holds
+};
+template <class Visit>
+void describe(Stl& stl, Visit&& visit) {
+  visit(stl.file, {.name = "file",
+                   .needed = true,
+                   .remedy = "give the .stl file, relative to the scene file",
+                   .values = "an STL file",
+                   .meaning = "relative to the scene file"});
+  visit(
+      stl.scale,
+      {.name = "scale", .range = Range::above(0, 1e6), .meaning = "times the file's lengths makes metres: 1e-3 for millimetres"});
+}
+
+struct Union;
+struct Intersection;
+struct Difference;
+struct Placed;
+using Primitive = std::variant<Box, Slab, Sphere, Cylinder, TubeShape, Cone, Ellipsoid, HalfSpace, Revolution, Stl, Union,
+                               Intersection, Difference, Placed>;
+
+/// What lies in any of `shapes`.
+struct Union {
+  static constexpr const char* name = "union";
+  static constexpr const char* summary = "what lies in any of some shapes";
+  static constexpr bool is_bounded = true, is_container = false;
+  std::vector<Primitive> shapes;
+};
+/// What lies in all of `shapes`.
+struct Intersection {
+  static constexpr const char* name = "intersection";
+  static constexpr const char* summary = "what lies in all of some shapes";
+  static constexpr bool is_bounded = true, is_container = false;
+  std::vector<Primitive> shapes;
+};
+/// What lies in the first of `shapes` and in none of the others.
+struct Difference {
+  static constexpr const char* name = "difference";
+  static constexpr const char* summary = "what lies in the first of some shapes, and in none of the others";
+  static constexpr bool is_bounded = true, is_container = false;
+  std::vector<Primitive> shapes;
+};
+template <class Visit>
+void describe_shapes(std::vector<Primitive>& shapes, Visit&& visit) {
+  visit(shapes, {.name = "shapes",
+                 .needed = true,
+                 .remedy = "give a list of shapes, e.g. shapes = [{type = \"sphere\", radius = 0.1}, {type = \"box\", ...}]",
+                 .values = "list of [shapes](#shapes)",
+                 .meaning = "one or more, of any type"});
+}
+template <class Visit>
+void describe(Union& of, Visit&& visit) {
+  describe_shapes(of.shapes, visit);
+}
+template <class Visit>
+void describe(Intersection& of, Visit&& visit) {
+  describe_shapes(of.shapes, visit);
+}
+template <class Visit>
+void describe(Difference& of, Visit&& visit) {
+  describe_shapes(of.shapes, visit);
+}
+
+/// How a shape is turned and moved.
+struct Placement {
+  Vec3 rotate = Vec3::Zero();  ///< axis times angle [deg]
+  std::optional<Vec3> about;   ///< a point that stays while it turns [m]; none: the middle of the shape
+  Vec3 move = Vec3::Zero();    ///< after the turn [m]
+};
+template <class Visit>
+void describe(Placement& placement, Visit&& visit) {
+  visit(placement.rotate,
+        {.name = "rotate", .unit = "deg", .form = Form::turn, .meaning = "turns the shape: axis times angle, e.g. [0, 0, 30]"});
+  visit(placement.about, {.name = "about",
+                          .unit = "m",
+                          .range = Range::position(),
+                          .rule = "middle of the shape",
+                          .meaning = "the point that stays where it is while the shape turns"});
+  visit(placement.move, {.name = "move", .unit = "m", .range = Range::position(), .meaning = "moves it, after the turn"});
+}
+
+/// A shape turned and moved: place -> turn (place - about) + about + move. In a scene any table of a shape may have the keys of a
+/// placement beside its own.
+struct Placed {
+  static constexpr const char* name = "turned shape";
+  static constexpr const char* summary = "";
+  static constexpr bool is_bounded = true, is_container = false, is_modifier = true;
+  Placement placement;
+  std::vector<Primitive> shape;  ///< one
+  Mat3 turn = Mat3::Identity();
+
+  /// The place in the unturned shape of a place in space, and the reverse [m].
+  Vec3 before(const Vec3& x) const { return turn.transpose() * (x - *placement.about - placement.move) + *placement.about; }
+  Vec3 after(const Vec3& x) const { return turn * (x - *placement.about) + *placement.about + placement.move; }
+};
+template <class Visit>
+void describe(Placed& placed, Visit&& visit) {
+  describe(placed.placement, visit);
+}
+/// `about` is settled here.
+Placed placed(const Primitive& shape, const Placement& placement, int dimension);
 
 /// A primitive less any number of others.
 struct Shape {
@@ -183,13 +356,23 @@ struct Shape {
 bool same_shape(const Primitive& one, const Primitive& other);
 
 /// Signed distance [m] from x to the surface, negative inside; exact outside corners of the base excepted for
-/// subtractions, where it is the usual lower bound. Only the first `dimension` coordinates count.
+/// subtractions, unions and intersections, where the sign is exact and the size the usual lower bound. Only the first `dimension`
+/// coordinates count.
 double signed_distance(const Primitive& shape, const Vec3& x, int dimension);
 double signed_distance(const Shape& shape, const Vec3& x, int dimension);
 
-/// Smallest box round the shape; a Slab is unbounded (+-1e300) across its axis.
+/// Smallest box round the shape (of an intersection, what the boxes of its parts have in common); +-1e300 where it has no end.
 Bounds bounds(const Primitive& shape, int dimension);
 Bounds bounds(const Shape& shape, int dimension);
+
+/// Does it end in all directions that the scene has?
+bool is_bounded(const Primitive& shape, int dimension);
+
+/// Is the shape no box, slab, sphere, cylinder, tube or cone? Then its whole surface is one face, "side", and a general mesh.
+bool has_one_face(const Primitive& shape);
+
+/// Is the shape its own mirror image across x[axis] = at? Of shapes without a formula for it, at 29 places along each axis.
+bool is_mirrored(const Primitive& shape, int axis, double at, int dimension);
 
 /// The middle of those bounds; 0 along axes without any.
 Vec3 middle(const Primitive& shape, int dimension);
@@ -199,5 +382,8 @@ Vec3 middle(const Primitive& shape, int dimension);
 double volume(const Shape& shape, const Bounds& window, int dimension);
 /// The same of the body of revolution about x = 0 of which a shape in two dimensions is the half at x > 0 [m^3].
 double volume_of_revolution(const Shape& shape, const Bounds& window);
+
+/// Integral of a weight over shape and window, as volume() computes that of 1, to about 1e-4 relative.
+double integral(const Shape& shape, const Bounds& window, int dimension, const std::function<double(const Vec3&)>& weight);
 
 }  // namespace undex

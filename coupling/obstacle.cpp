@@ -53,7 +53,7 @@ std::array<bool, 3> cut_by(const Obstacle& obstacle, const sph::Settings& fluid)
     if (!fluid.symmetry.axis[a] || (fluid.axisymmetric && a == 0)) continue;
     const double low = extent.low[a], high = extent.high[a], near = 1e-6 * fluid.lattice.spacing;
     cut[a] = low < -near;
-    if (cut[a] && std::abs(low + high) > near)
+    if (cut[a] && (std::abs(low + high) > near || !is_mirrored(obstacle.shape, a, 0.0, fluid.dimension)))
       refuse(obstacle, "shape",
              std::string("the symmetry plane ") + "xyz"[a] +
                  " = 0 cuts it, and not through its middle; put its middle on the plane, or leave the plane out");
@@ -114,7 +114,10 @@ WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, con
                        const std::array<bool, 6>& free) {
   const double spacing = fluid.lattice.spacing, near = 1e-6 * spacing;
   std::optional<WetSurface> whole = closed_surface(obstacle.shape, spacing, fluid.dimension);
-  if (!whole) refuse(obstacle, "shape", "this shape has no closed surface in the scene's dimension; take another one");
+  if (!whole)
+    refuse(obstacle, "shape",
+           "its surface cannot be meshed in the scene's dimension with faces of a spacing; take another shape, or a "
+           "smaller spacing");
   for (Vec3& x : whole->nodes)
     for (int a = 0; a < fluid.dimension; ++a)
       if (fluid.symmetry.axis[a] && std::abs(x[a]) < near) x[a] = 0.0;

@@ -8,6 +8,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "run/picture.hpp"
 #include "run/simulation.hpp"
 #include "run/room.hpp"
 #include "run/starts.hpp"
@@ -93,7 +94,7 @@ std::string revolution_note(const scene::Scene& scene) {
 
 }  // namespace
 
-std::string describe(const scene::Scene& given) {
+std::string describe(const scene::Scene& given, std::string* drawing) {
   scene::Scene scene = given;
   using Clock = std::chrono::steady_clock;
   std::string planes;
@@ -114,6 +115,7 @@ std::string describe(const scene::Scene& given) {
   if (const std::string report = begin(scene); !report.empty()) text += report + "\n";
   const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
   Simulation simulation(scene);
+  if (drawing) *drawing = picture(scene, simulation);
   double memory = 0;
   if (const sph::Fluid* fluid = simulation.fluid()) {
     text += format("fluid, spacing %.6g m\n", scene.fluid.lattice.spacing) + bodies(scene, *fluid);

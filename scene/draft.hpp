@@ -71,16 +71,9 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
 /// Puts the shapes of named bodies and solids where `subtract` names them.
 void resolve_subtractions(Draft& draft);
 
-/// The types of shapes: all of them, those of bodies that have to end somewhere, and those of rigid containers.
-inline std::vector<std::string> shape_names() { return Alternatives<Primitive>::names(); }
-inline std::vector<std::string> bounded_shape_names() {
-  return Alternatives<Primitive>::names([]<class Type>(std::type_identity<Type>) { return Type::is_bounded; });
-}
-inline std::vector<std::string> container_names() {
-  return Alternatives<Primitive>::names([]<class Type>(std::type_identity<Type>) { return Type::is_container; });
-}
-/// A shape table; `allowed` are its possible types. Returns whether it was good.
-bool read_shape(const Node& node, const std::string& path, int dimension, const std::vector<std::string>& allowed, Report& report,
-                Primitive& into);
+/// For what a shape is used: bodies that have to end somewhere, rigid containers, or anything.
+enum class ShapeUse { any, bounded, container };
+/// A shape table: a type with its keys, and those of a placement. Returns whether it was good.
+bool read_shape(const Node& node, const std::string& path, Draft& draft, ShapeUse use, Primitive& into);
 
 }  // namespace undex::scene

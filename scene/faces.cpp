@@ -31,7 +31,7 @@ bool is_round(const Primitive& shape, int dimension) {
 }
 
 std::vector<std::string> shape_faces(const Primitive& shape, int dimension, const std::array<bool, 3>& symmetric) {
-  if (std::holds_alternative<Sphere>(shape)) return {"side"};
+  if (std::holds_alternative<Sphere>(shape) || has_one_face(shape)) return {"side"};
   const auto is_cut = [&](int axis, double low) { return low < 0 && symmetric[axis]; };
   std::vector<std::string> faces;
   const auto ends = [&](int axis, double low) {

@@ -77,7 +77,9 @@ std::string default_of(const Key& key, const auto& member) {
   const std::string text = TomlValues(3, number_text).text(key, member);
   return text.empty() ? "none" : text;
 }
-std::string default_of(const Key& key, const std::vector<Primitive>&) { return key.rule ? key.rule : "[]"; }
+std::string default_of(const Key& key, const std::vector<Primitive>&) {
+  return key.needed ? "required" : key.rule ? key.rule : "[]";
+}
 
 std::string row(const Key& key, const auto& member) {
   std::string values = key.values    ? key.values

@@ -219,7 +219,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   read_level(table, draft.scene.fluid.gravity, body);
   read_radial(table, body.radial);
   if (const Node* shape = table.find("shape"))
-    shape_good = read_shape(*shape, table.path_of("shape"), table.dimension(), shape_names(), report, body.shape.base);
+    shape_good = read_shape(*shape, table.path_of("shape"), draft, ShapeUse::any, body.shape.base);
   read_subtractions(table, draft, index, body.shape.removed);
   if (!material_good) return body;
   if (std::holds_alternative<StiffenedGas>(body.material.law))
@@ -267,8 +267,7 @@ void read_wall(const Node& node, const std::string& path, Draft& draft) {
   wall.name = std::to_string(draft.wall_nodes.size());
   read_fields(table, wall);
   const Node* shape = table.find("shape");
-  bool good =
-      shape && read_shape(*shape, table.path_of("shape"), table.dimension(), container_names(), draft.report, wall.container);
+  bool good = shape && read_shape(*shape, table.path_of("shape"), draft, ShapeUse::container, wall.container);
   if (good && table.dimension() == 1 && std::holds_alternative<Sphere>(wall.container)) {
     table.complain("shape", table.path_of("shape") + ": in one dimension a wall is a \"box\"");
     good = false;

@@ -31,7 +31,7 @@ Obstacle read_obstacle(const Node& node, const std::string& path, Draft& draft, 
   obstacle.name = std::to_string(index);
   read_fields(table, obstacle);
   if (const Node* shape = table.find("shape"))
-    read_shape(*shape, table.path_of("shape"), table.dimension(), bounded_shape_names(), draft.report, obstacle.shape);
+    read_shape(*shape, table.path_of("shape"), draft, ShapeUse::bounded, obstacle.shape);
   if (draft.report.size() == before) refuse_idle_keys(table, obstacle);
   good = draft.report.size() == before;
   return obstacle;

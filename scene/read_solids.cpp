@@ -16,7 +16,7 @@ solid::Body read_solid(const Node& node, const std::string& path, Draft& draft, 
   solid::Body solid;
   solid.name = std::to_string(index);
   if (const Node* shape = table.find("shape"))
-    shape_good = read_shape(*shape, table.path_of("shape"), dimension, bounded_shape_names(), draft.report, solid.shape.base);
+    shape_good = read_shape(*shape, table.path_of("shape"), draft, ShapeUse::bounded, solid.shape.base);
   const bool round = shape_good && is_round(solid.shape.base, dimension);
   if (round) solid.lattice = LatticeType::rings;
   read_fields(table, solid);

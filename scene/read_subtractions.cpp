@@ -50,8 +50,7 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
       continue;
     }
     Primitive removed;
-    if (read_shape(item, path + '.' + std::to_string(i), table.dimension(), shape_names(), table.report(), removed))
-      into.push_back(removed);
+    if (read_shape(item, path + '.' + std::to_string(i), draft, ShapeUse::any, removed)) into.push_back(removed);
   }
 }
 

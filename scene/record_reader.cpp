@@ -56,6 +56,33 @@ bool read(const TableReader& table, const Key& key, Vec3& into) {
   return good;
 }
 
+bool read(const TableReader& table, const Key& key, Polygon& into) {
+  const Node* list = table.find(key.name);
+  if (!list) return false;
+  const std::string path = table.path_of(key.name);
+  constexpr std::size_t most = 10000;
+  if (list->kind != Node::Kind::array || list->items.size() > most) {
+    table.complain(key.name,
+                   path + " must be a list of up to " + std::to_string(most) + " pairs [r, z] in " + key.unit + ", not " +
+                       (list->kind == Node::Kind::array ? std::to_string(list->items.size()) + " of them" : list->described()));
+    return false;
+  }
+  Polygon points;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    const Node& item = list->items[i];
+    const bool pair = item.kind == Node::Kind::array && item.items.size() == 2 && item.items[0].is_number() &&
+                      item.items[1].is_number() && key.range.holds(item.items[0].number) && key.range.holds(item.items[1].number);
+    if (!pair) {
+      table.report().add(item, path + '.' + std::to_string(i) + " must be a pair [r, z] of numbers " + range_in_words(key.range) +
+                                   " " + key.unit + ", not " + item.described());
+      return false;
+    }
+    points.push_back({item.items[0].number, item.items[1].number});
+  }
+  into = points;
+  return true;
+}
+
 bool read(const TableReader& table, const Key& key, std::array<bool, 3>& into) {
   std::vector<int> axes;
   if (!table.read_axes(key.name, axes)) return false;

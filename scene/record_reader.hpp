@@ -22,7 +22,8 @@ bool read(const TableReader& table, const Key& key, Type& into) {
   else return table.read(key.name, into);
 }
 inline bool read(const TableReader&, const Key&, ByHand&) { return true; }
-inline bool read(const TableReader&, const Key&, std::vector<Primitive>&) { return true; }  // read_subtractions
+inline bool read(const TableReader&, const Key&, std::vector<Primitive>&) { return true; }  // read_shape, read_subtractions
+bool read(const TableReader& table, const Key& key, Polygon& into);
 inline bool read(const TableReader& table, const Key& key, std::optional<Vec3>& into) {
   Vec3 value = Vec3::Zero();
   if (key.form == Form::height && table.has(key.name) && table.find(key.name)->kind != Node::Kind::array)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "scene/faces.hpp"
 #include "scene/geometry.hpp"
 #include "scene/numbers.hpp"
 
@@ -19,6 +20,16 @@ Vec3 across(Vec3 v, int axis) {
 }
 
 std::string words(const Vec3& x) { return "[" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + "]"; }
+
+/// The shapes that one is made of; null for those that are not.
+const std::vector<Primitive>* parts_of(const Primitive& shape) {
+  return std::visit(
+      [](const auto& each) -> const std::vector<Primitive>* {
+        if constexpr (requires { each.shapes; }) return &each.shapes;
+        else return nullptr;
+      },
+      shape);
+}
 
 class Judge {
  public:
@@ -58,6 +69,23 @@ class Judge {
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return round(*cylinder);
     if (const auto* tube = std::get_if<TubeShape>(&shape)) return round(*tube);
     if (const auto* cone = std::get_if<Cone>(&shape)) return round(*cone);
+    if (const auto* revolution = std::get_if<Revolution>(&shape)) return round(*revolution);
+    if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) {
+      const Vec3& s = ellipsoid->semi_axes;
+      if (s[(line_.axis + 1) % 3] != s[(line_.axis + 2) % 3])
+        return "its semi-axes across the axis of revolution, " + axis_ + ", differ; make them equal";
+      return is_on_axis(ellipsoid->center) ? "" : off_axis(ellipsoid->center);
+    }
+    if (const auto* half = std::get_if<HalfSpace>(&shape))
+      return is_along(half->normal) ? "" : "its normal " + words(half->normal) + " is not along the axis of revolution, " + axis_;
+    if (const std::vector<Primitive>* parts = parts_of(shape)) {
+      for (const Primitive& part : *parts)
+        if (const std::string why = flaw(part); !why.empty()) return why;
+      return "";
+    }
+    if (std::holds_alternative<Stl>(shape)) return "a surface of triangles is not computed in a meridian; take a \"revolution\"";
+    if (std::holds_alternative<Placed>(shape))
+      return "a shape with `rotate` or `move` is not computed in a meridian; write it in its place";
     return "a box is no body of revolution; take a cylinder";
   }
   void of_shape(const std::string& path, const Shape& shape) {
@@ -193,6 +221,26 @@ Primitive meridian_of(const Primitive& shape, const Meridian& line) {
     section.center.setZero();
     return section;
   }
+  if (const auto* revolution = std::get_if<Revolution>(&shape)) {
+    Revolution section = *revolution;
+    section.axis = axial;
+    section.center.setZero();
+    return section;
+  }
+  if (const auto* e = std::get_if<Ellipsoid>(&shape))
+    return Ellipsoid{Vec3(0.0, e->center[line.axis], 0.0), Vec3(e->semi_axes[(line.axis + 1) % 3], e->semi_axes[line.axis], 1.0)};
+  if (const auto* half = std::get_if<HalfSpace>(&shape))
+    return HalfSpace{Vec3(0.0, half->point[line.axis], 0.0), Vec3(0.0, half->normal[line.axis], 0.0)};
+  if (parts_of(shape)) {
+    Primitive section = shape;
+    std::visit(
+        [&](auto& each) {
+          if constexpr (requires { each.shapes; })
+            for (Primitive& part : each.shapes) part = meridian_of(part, line);
+        },
+        section);
+    return section;
+  }
   const Cylinder& cylinder = std::get<Cylinder>(shape);
   return Box{Vec3(-cylinder.radius, cylinder.low, 0.0), Vec3(cylinder.radius, cylinder.high, 0.0)};
 }
@@ -285,7 +333,7 @@ solid::Body meridian_of(const solid::Body& solid, const Meridian& line) {
   meridian.lattice = sph::LatticeType::cartesian;
   meridian.velocity = line.vector(solid.velocity, line.outward());
   meridian.radial = meridian_of(solid.radial, line);
-  if (std::holds_alternative<Cone>(solid.shape.base)) return meridian;
+  if (std::holds_alternative<Cone>(solid.shape.base) || has_one_face(solid.shape.base)) return meridian;
   const bool tube = std::holds_alternative<TubeShape>(solid.shape.base);
   for (std::string& face : meridian.wet) {
     if (face == "side" || face == "outer") face = std::holds_alternative<Sphere>(solid.shape.base) ? "side" : "x_high";

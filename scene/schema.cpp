@@ -46,6 +46,7 @@ std::vector<Section> make_schema() {
     const auto take = [&](const auto&, const Key& key) { keys.push_back(key); };
     if (name.starts_with("material.") && *summary) for_each_field(materials::Fluid{}, take);
     for_each_field(record, take);
+    if (name.starts_with("shape.")) for_each_field(Placement{}, take);
     sections.push_back({name, keys});
   });
   return sections;

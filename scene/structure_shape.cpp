@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/closed_surface.hpp"
 #include "core/surface.hpp"
 #include "scene/faces.hpp"
 
@@ -72,6 +73,11 @@ std::vector<Vec3> face_points(const Primitive& shape, const std::string& face) {
       const std::vector<Vec3> circle = round_points(2, s->center, {radius}, {s->center[2] + s->radius * height});
       points.insert(points.end(), circle.begin(), circle.end());
     }
+  if (has_one_face(shape)) {
+    const Bounds extent = bounds(shape, 3);
+    const auto surface = closed_surface(shape, (extent.high - extent.low).maxCoeff() / (lines - 1), 3);
+    if (surface) points = surface->nodes;
+  }
   if (const auto* p = std::get_if<Box>(&shape))
     for (int axis = 0; axis < 3; ++axis)
       for (const bool high : {false, true}) {

@@ -20,7 +20,11 @@ Record all_defaults() {
 /// The alternatives of a variant as tables prefix.name, with their summaries; `kind` is the key that names the alternative.
 template <class... Types>
 void for_each_alternative(const std::string& prefix, const char* kind, auto&& visit, std::type_identity<std::variant<Types...>>) {
-  (visit(prefix + Types::name, Types::summary, all_defaults<ParametersOf<Types>>(), kind), ...);
+  const auto show = [&]<class Type>(std::type_identity<Type>) {
+    if constexpr (!requires { Type::is_modifier; })
+      visit(prefix + Type::name, Type::summary, all_defaults<ParametersOf<Type>>(), kind);
+  };
+  (show(std::type_identity<Types>{}), ...);
 }
 
 /// The counts of a mesh's cells, as table cells.name; nothing for a mesh that has none.
@@ -58,6 +62,7 @@ void for_each_table(auto&& visit) {
   visit("probes", "", all_defaults<Probe>(), "");
   visit("output", "", all_defaults<Output>(), "");
   for_each_alternative("shape.", "type", visit, std::type_identity<Primitive>{});
+  visit("placement", "", all_defaults<Placement>(), "");
   for_each_alternative("structure.", "type", visit, std::type_identity<fem::Mesh>{});
   for_each_cells(visit, std::type_identity<fem::Mesh>{});
   visit("material.solid", "", all_defaults<materials::Solid>(), "");

@@ -36,6 +36,9 @@ class Writer {
       if (all || key.used) line(key.name, values_.text(key, member));
     });
   }
+  void shape(const Primitive& of) {
+    values_.for_each_shape_key(of, [&](const char* key, const std::string& value) { line(key, value); });
+  }
   int dimension() const { return values_.dimension(); }
   void set_dimension(int dimension) { values_ = TomlValues(dimension); }
 
@@ -54,10 +57,9 @@ class Writer {
 };
 
 void put_shape(Writer& writer, const std::string& header, const Primitive& shape) {
-  const std::string type = name_of(shape);
-  writer.table(header, "shape." + type);
-  writer.put("type", type);
-  std::visit([&](const auto& each) { writer.fields(each); }, shape);
+  const auto* placed = std::get_if<Placed>(&shape);
+  writer.table(header, std::string("shape.") + name_of(placed ? placed->shape[0] : shape));
+  writer.shape(shape);
 }
 
 void put_fluid_material(Writer& writer, const std::string& header, const Fluid& fluid) {

@@ -63,6 +63,9 @@ class TomlValues {
   std::string text(const std::vector<Primitive>& shapes) const {
     return shapes.empty() ? "" : array(shapes, [&](const Primitive& shape) { return inline_table(shape); });
   }
+  std::string text(const Polygon& points) const {
+    return array(points, [&](const auto& point) { return array(point, number_); });
+  }
   std::string text(const Dimension& value) const {
     return value.geometry == Geometry::cartesian ? text(value.coordinates) : text(value.geometry);
   }
@@ -83,15 +86,23 @@ class TomlValues {
 
   /// {type = "box", low = [0, 0], ...}
   std::string inline_table(const Primitive& shape) const {
-    std::string line = std::string("{type = ") + quoted(name_of(shape));
-    std::visit(
-        [&](const auto& each) {
-          for_each_field(each, [&](const auto& member, const Key& key) {
-            line += std::string(", ") + key.name + " = " + text(key, member);
-          });
-        },
-        shape);
+    std::string line;
+    for_each_shape_key(shape, [&](const char* key, const std::string& value) {
+      if (!value.empty()) line += (line.empty() ? "{" : ", ") + std::string(key) + " = " + value;
+    });
     return line + "}";
+  }
+  /// visit(key, text) for the type of a shape, its keys and those of its placements.
+  void for_each_shape_key(const Primitive& shape, auto&& visit) const {
+    const auto keys_of = [&](const auto& each) {
+      for_each_field(each, [&](const auto& member, const Key& key) { visit(key.name, text(key, member)); });
+    };
+    if (const auto* placed = std::get_if<Placed>(&shape)) {
+      for_each_shape_key(placed->shape[0], visit);
+      return keys_of(*placed);
+    }
+    visit("type", quoted(name_of(shape)));
+    std::visit(keys_of, shape);
   }
   int dimension() const { return dimension_; }
 

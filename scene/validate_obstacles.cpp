@@ -203,8 +203,12 @@ void Validator::room_for(std::size_t index) {
   const std::optional<WetSurface> surface = closed_surface(one.shape, fluid_.lattice.spacing, dimension_);
   if (!surface) {
     complain(node, "shape",
-             path + ": a " + name_of(one.shape) + " has no closed surface in " + std::to_string(dimension_) +
-                 " dimensions; take another shape");
+             path + ": " +
+                 (has_one_face(one.shape) && dimension_ > 1
+                      ? "its surface cannot be meshed with faces of a spacing: a part of it is thinner, or two are nearer "
+                        "to each other; make the spacing smaller"
+                      : std::string("a ") + name_of(one.shape) + " has no closed surface in " + std::to_string(dimension_) +
+                            " dimensions; take another shape"));
     return;
   }
   for (const Vec3& x : surface->nodes) look(x);

@@ -6,17 +6,11 @@ namespace {
 
 /// Is the shape round where the axis crosses it, so that a plane off its middle leaves a lens or a peanut?
 bool is_round_across(const Primitive& shape, int axis) {
-  if (std::holds_alternative<Sphere>(shape)) return true;
+  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Ellipsoid>(shape)) return true;
   if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->axis != axis;
   if (const auto* tube = std::get_if<TubeShape>(&shape)) return tube->axis != axis;
   if (const auto* cone = std::get_if<Cone>(&shape)) return cone->axis != axis;
   return false;
-}
-
-/// Does a plane through its middle halve the shape?
-bool has_halves(const Primitive& shape, int axis) {
-  const auto* cone = std::get_if<Cone>(&shape);
-  return !cone || cone->axis != axis || cone->low_radius == cone->high_radius;
 }
 
 std::string plane(int axis) { return std::string("the symmetry plane ") + "xyz"[axis] + " = 0"; }
@@ -37,7 +31,7 @@ void Validator::mirrored(const Part& one, bool fluid, const sph::Body* body) {
   for (int a = 0; a < dimension_; ++a) {
     if (!fluid_.symmetry.axis[a]) continue;
     const double low = extent.low[a], high = extent.high[a], middle = 0.5 * (low + high);
-    const bool crosses = low < -tolerance(), centred = std::abs(middle) <= 1e-6 * (high - low) && has_halves(shape, a);
+    const bool crosses = low < -tolerance(), centred = is_mirrored(shape, a, 0.0, dimension_);
     if (crosses && body && body->velocity[a] != 0)
       complain(*one.node, "velocity",
                one.path() + ": its velocity across " + plane(a) +

@@ -12,6 +12,7 @@ packages=(
   libdeal.ii-dev         # finite elements: mesh and shape functions of the structure
   libhdf5-openmpi-dev    # field files; the flavour of HDF5 that deal.II links
   libxxhash-dev          # checksums of checkpoints and evidence
+  libcgal-dev            # closed surfaces of triangles (STL); libdeal.ii-dev brings it too
   libeigen3-dev          # small vectors and tensors
   libtomlplusplus-dev    # scene files
   libudunits2-dev        # values with units in them

@@ -17,8 +17,9 @@ Settings in_meridian(Settings settings, const sph::Settings& around) {
       refuse("residual_stress: it is there for cylinders in two and three dimensions, not in the meridian");
     if (body.velocity[2] != 0.0) refuse("velocity: rings of an axisymmetric scene move along r and the axis only");
     auto* box = std::get_if<Box>(&body.shape.base);
-    if (!box && !std::holds_alternative<Sphere>(body.shape.base) && !std::holds_alternative<Cone>(body.shape.base))
-      refuse("shape: in the meridian a solid is a box (of a cylinder or a tube), a sphere or a cone");
+    if (!box && !std::holds_alternative<Sphere>(body.shape.base) && !std::holds_alternative<Cone>(body.shape.base) &&
+        !has_one_face(body.shape.base))
+      refuse("shape: in the meridian a solid is a box (of a cylinder or a tube), a sphere, a cone or a shape with one face");
     if (box && box->low[0] <= 0.0) box->low[0] = -box->high[0];
   }
   for (const RigidPlane& plane : settings.planes)

@@ -43,12 +43,13 @@ std::vector<Named> faces_at(const Primitive& shape, const Vec3& x, int dimension
     const double slope = (cone->high_radius - cone->low_radius) / (cone->high - cone->low), cosine = 1.0 / std::hypot(1.0, slope);
     faces.push_back({"side", (cone->radius_at(x[cone->axis]) - r.norm()) * cosine});
     ends(cone->axis, cone->low, cone->high, "low", "high");
+  } else if (const auto* tube = std::get_if<TubeShape>(&shape)) {
+    const Vec3 r = radial(tube->axis, tube->center);
+    faces.push_back({"inner", r.norm() - tube->inner});
+    faces.push_back({"outer", tube->outer - r.norm()});
+    ends(tube->axis, tube->low, tube->high, "low", "high");
   } else {
-    const TubeShape& tube = std::get<TubeShape>(shape);
-    const Vec3 r = radial(tube.axis, tube.center);
-    faces.push_back({"inner", r.norm() - tube.inner});
-    faces.push_back({"outer", tube.outer - r.norm()});
-    ends(tube.axis, tube.low, tube.high, "low", "high");
+    faces.push_back({"side", -signed_distance(shape, x, dimension)});
   }
   return faces;
 }

@@ -20,7 +20,7 @@ WetSurface wet_faces_of(const Body& body, const Settings& settings, const sph::S
                                 ", so its wet faces cannot be meshed; change the shape, or name others");
   };
   std::optional<WetSurface> whole = closed_surface(body.shape.base, spacing, dimension);
-  if (!whole) refuse("this shape has no closed surface in the scene's dimension");
+  if (!whole) refuse("this shape has no closed surface of faces of a spacing in the scene's dimension");
   for (Vec3& x : whole->nodes)
     for (int a = 0; a < dimension; ++a)
       if (around.symmetry.axis[a] && std::abs(x[a]) < near) x[a] = 0.0;

@@ -23,6 +23,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "regression"))
 import undex_runs as runs  # noqa: E402
@@ -140,6 +141,20 @@ energy = 2.5
         finished = self.undex("check", scene)
         self.ends(finished, 2, r"case\.toml:1:1: unknown key 'key0'", r"and \d+ more; mend these first")
         self.assertLess(len(finished.stderr), 100000)
+
+    def test_picture(self):
+        flat = self.GAS.replace("dimension = 1", "dimension = 2").replace("low = 0, high = 1", "low = [0, 0], high = [1, 0.5]")
+        scene = self.scene(flat + '[[obstacles]]\nname = "egg"\nshape = {type = "ellipsoid", center = [0.5, 0.25], '
+                                  'semi_axes = [0.2, 0.1], rotate = 30}\n[[probes]]\nname = "here"\npoint = [0.1, 0.1]\n')
+        before = contents(self.here)
+        self.ends(self.undex("check", scene, "--picture", "scene.png"), 1, r"scene\.png: pictures are drawn as \.svg")
+        self.nothing_written(before)
+        self.ends(self.undex("check", scene, "--picture", "scene.svg"), 0)
+        drawing = (self.here / "scene.svg").read_text()
+        xml.etree.ElementTree.fromstring(drawing)
+        for word in ("gas", "obstacles", "here"):
+            self.assertIn(f">{word}<", drawing)
+        self.assertLess(abs(drawing.count("z\"") + drawing.count("zM") - 4372), 20)  # a square each: (0.5 - 0.02 pi) / spacing^2
 
     def test_what_never_ends(self):
         self.ends(self.undex("check", "/dev/zero", timeout=60), 1, "/dev/zero: larger than")

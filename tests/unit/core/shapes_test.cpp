@@ -45,6 +45,77 @@ TEST(SignedDistance, Sphere) {
   EXPECT_DOUBLE_EQ(distance(ball, 0, 99, 99, 1), -1);
 }
 
+TEST(SignedDistance, EllipsoidHasTheNearestPoint) {
+  const Ellipsoid ball{Vec3(1, 0, 0), Vec3(2, 2, 2)};
+  EXPECT_NEAR(distance(ball, 1, 3, 4), 3, 1e-12);
+  EXPECT_NEAR(distance(ball, 1, 0, 0), -2, 1e-9);
+  EXPECT_NEAR(distance(ball, 0, 99, 99, 1), -1, 1e-12);
+  const Ellipsoid egg{Vec3::Zero(), Vec3(1, 2, 3)};
+  EXPECT_NEAR(distance(egg, 0, 0, 0), -1, 1e-9);
+  std::mt19937 any(7);
+  std::uniform_real_distribution<double> at(-4, 4);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 x(at(any), at(any), at(any));
+    double nearest = 1e300;
+    for (int j = 0; j <= 400; ++j)
+      for (int k = 0; k < 800; ++k) {
+        const double up = pi * j / 400, round = pi * k / 400;
+        const Vec3 there(std::sin(up) * std::cos(round), 2 * std::sin(up) * std::sin(round), 3 * std::cos(up));
+        nearest = std::min(nearest, (x - there).norm());
+      }
+    // The nearest of places up to 0.012 m apart from that sought.
+    const bool within = x.cwiseQuotient(egg.semi_axes).norm() < 1;
+    const double d = (within ? -1 : 1) * distance(egg, x[0], x[1], x[2]);
+    EXPECT_LE(d, nearest + 1e-12);
+    EXPECT_GT(d * d + 0.02 * 0.02 * (1 + d), nearest * nearest);
+  }
+}
+
+TEST(SignedDistance, HalfSpaceAndRevolution) {
+  const HalfSpace half{Vec3(1, 0, 0), Vec3(3, 4, 0)};
+  EXPECT_DOUBLE_EQ(distance(half, 1, 5, 9), 4);
+  EXPECT_DOUBLE_EQ(distance(half, -4, 0, 9), -3);
+  const Cone cone{2, Vec3(1, 1, 0), 0.5, 0.0, -1, 2};
+  const Revolution same{2, Vec3(1, 1, 0), {{0, -1}, {0.5, -1}, {0, 2}}};
+  const TubeShape tube{0, Vec3(0, 1, 2), 0.5, 1, -1, 2};
+  const Revolution ring{0, Vec3(0, 1, 2), {{0.5, -1}, {1, -1}, {1, 2}, {0.5, 2}}};
+  std::mt19937 any(7);
+  std::uniform_real_distribution<double> at(-3, 3);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 x(at(any), at(any), at(any));
+    EXPECT_NEAR(signed_distance(same, x, 3), signed_distance(cone, x, 3), 1e-12);
+    EXPECT_NEAR(signed_distance(ring, x, 3), signed_distance(tube, x, 3), 1e-12);
+  }
+}
+
+TEST(SignedDistance, OfComposedShapes) {
+  const Primitive one = Sphere{Vec3(0, 0, 0), 1}, other = Sphere{Vec3(1, 0, 0), 1};
+  EXPECT_DOUBLE_EQ(distance(Union{{one, other}}, 4, 0, 0), 2);
+  EXPECT_DOUBLE_EQ(distance(Intersection{{one, other}}, 0.5, 0, 0), -0.5);
+  EXPECT_DOUBLE_EQ(distance(Difference{{one, other}}, -0.5, 0, 0), -0.5);
+  EXPECT_GT(distance(Difference{{one, other}}, 0.5, 0, 0), 0);
+  // A lens: two caps of height 1/2.
+  EXPECT_NEAR(volume({Intersection{{one, other}}, {}}, everything, 3), 2 * pi * 0.25 * (3 - 0.5) / 3, 1e-4);
+  EXPECT_NEAR(volume({Union{{one, other}}, {}}, everything, 3), 8 * pi / 3 - 2 * pi * 0.25 * (3 - 0.5) / 3, 1e-3);
+}
+
+TEST(SignedDistance, OfTurnedShapes) {
+  const Box box{Vec3(0, 0, 0), Vec3(2, 1, 1)};
+  const Placed turned = placed(box, {.rotate = {0, 0, 90}, .about = Vec3::Zero(), .move = Vec3(0, 0, 5)}, 3);
+  EXPECT_NEAR(distance(turned, -0.5, 1, 5.5), -0.5, 1e-12);
+  EXPECT_NEAR(distance(turned, 1, 1, 5.5), 1, 1e-12);
+  const Bounds extent = bounds(Primitive(turned), 3);
+  EXPECT_LT((extent.low - Vec3(-1, 0, 5)).norm() + (extent.high - Vec3(0, 2, 6)).norm(), 1e-12);
+  const Bounds tilted = bounds(
+      Primitive(placed(Cylinder{2, Vec3::Zero(), 1, -2, 2}, {.rotate = {0, 30, 0}, .about = {}, .move = Vec3::Zero()}, 3)), 3);
+  EXPECT_NEAR(tilted.high[0], std::cos(pi / 6) + 2 * std::sin(pi / 6), 1e-12);
+  EXPECT_NEAR(tilted.high[1], 1, 1e-12);
+  EXPECT_FALSE(is_bounded(HalfSpace{}, 3));
+  EXPECT_TRUE(is_bounded(Intersection{{HalfSpace{}, box}}, 3));
+  EXPECT_TRUE(same_shape(turned, turned));
+  EXPECT_FALSE(same_shape(turned, placed(box, {.rotate = {0, 0, 91}, .about = Vec3::Zero(), .move = Vec3(0, 0, 5)}, 3)));
+}
+
 TEST(SignedDistance, Cylinder) {
   const Cylinder rod{2, Vec3(1, 1, 77), 2, -3, 3};
   EXPECT_DOUBLE_EQ(distance(rod, 1, 1, 0), -2);

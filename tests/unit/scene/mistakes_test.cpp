@@ -50,7 +50,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "pressure, "
        "level, density, energy, burn, variable_h\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
-       "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high\n"},
+       "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high, rotate, about, move\n"},
       {"unknown key of a material", with(two_gases, "gamma = 1.4}\nenergy", "gama = 1.4}\nenergy"),
        "10:12: bodies.left.material.gamma is missing; a law without 'base' needs all its parameters\n"
        "10:42: unknown key 'gama' in bodies.left.material; did you mean 'gamma'?\n"},
@@ -93,7 +93,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"field", two_gases + "[output]\nparticle_fields = [\"densty\"]\n",
        "20:19: output.particle_fields: unknown 'densty'; did you mean 'density'?\n"},
       {"shape type", with(coupled_tube, "type = \"sphere\"", "type = \"shpere\""),
-       "11:17: bodies.charge.shape.type must be one of box, slab, sphere, cylinder, tube, cone, not the text \"shpere\"; did you "
+       "11:17: bodies.charge.shape.type must be one of box, slab, sphere, cylinder, tube, cone, ellipsoid, half_space, "
+       "revolution, stl, union, intersection, difference, not the text \"shpere\"; did you "
        "mean 'sphere'?\n"},
       {"upside down", with(two_gases, "low = 0, high = 0.5", "low = 0.5, high = 0.5"),
        "9:42: bodies.left.shape.high: along x, high = 0.5 must be greater than low = 0.5\n"},

@@ -584,11 +584,26 @@ TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
                                            "material.solid.base", "material.solid.young_modulus", "material.solid.poisson_ratio"};
   std::string all;
   for (const std::string& text : rich) all += '\n' + to_toml(read_text(text));
+  const Scratch scratch;
+  scratch.write(
+      "solid t\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid t\n",
+      "t.stl");
+  all +=
+      '\n' + to_toml(read(scratch.write(
+                 "end_time = 1\n[resolution]\nspacing = 0.1\n[[bodies]]\nname = \"water\"\nmaterial = \"water-tait\"\n"
+                 "shape = {type = \"stl\", file = \"t.stl\", scale = 2, rotate = [0, 0, 9], move = [0.1, 0, 0]}\n"
+                 "subtract = [{type = \"union\", shapes = [{type = \"half_space\", point = [0.3, 0, 0], normal = [-1, 0, 0]}, "
+                 "{type = \"ellipsoid\", semi_axes = [0.1, 0.2, 0.2]}, {type = \"revolution\", points = [[0, 0], [0.2, 0], [0, "
+                 "0.2]]}]}]\n")));
   for (const Section& section : schema())
     for (const Key& key : section.keys) {
       const std::string name = key.name, full = section.name + '.' + name;
       if (std::find(spellings.begin(), spellings.end(), full) != spellings.end() || name == "base") continue;
-      const bool there = all.find('\n' + name + " = ") != std::string::npos || all.find('[' + name + ']') != std::string::npos ||
+      const bool there = all.find('\n' + name + " = ") != std::string::npos ||
+                         all.find(", " + name + " = ") != std::string::npos || all.find('[' + name + ']') != std::string::npos ||
                          all.find('.' + name + ']') != std::string::npos;
       EXPECT_TRUE(there) << full;
     }
