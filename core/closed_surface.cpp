@@ -257,8 +257,8 @@ struct Mesher {
 
   std::optional<WetSurface> net(const Primitive& shape) const {
     if (!is_bounded(shape, dimension)) return std::nullopt;
-    return surface_net([&](const Vec3& x) { return signed_distance(shape, x, dimension); }, bounds(shape, dimension), spacing,
-                       dimension);
+    return surface_net([&](const Vec3& x) { return signed_distance(shape, x, dimension, 3.0 * spacing); },
+                       bounds(shape, dimension), spacing, dimension);
   }
 
   std::optional<WetSurface> operator()(const TubeShape& t) const {

@@ -145,23 +145,30 @@ struct Measure {
     MassProperties m;
     if (of_revolution) {
       box.low[0] = std::max(box.low[0], 0.0);
+      const Integrals sums = integrals(shape, box, 2, [](const Vec3& x) -> Integrals {
+        const double length = 2.0 * pi * x[0];
+        return (Integrals() << length, length * x[1], 0, 0, 0, 0, 0, 0, 0, 0).finished();
+      });
       m.volume = volume_of_revolution(shape, box);
-      m.centroid[1] = integral(shape, box, 2, [](const Vec3& x) { return 2.0 * pi * x[0] * x[1]; }) / m.volume;
+      m.centroid[1] = sums[1] / sums[0];
       return m;
     }
     m.volume = volume(shape, box, dimension);
     const Vec3 near = middle(of, dimension);
-    for (int a = 0; a < dimension; ++a)
-      m.centroid[a] = near[a] + integral(shape, box, dimension, [&](const Vec3& x) { return x[a] - near[a]; }) / m.volume;
-    const auto second = [&](int a, int b) {
-      return integral(shape, box, dimension, [&](const Vec3& x) { return (x[a] - m.centroid[a]) * (x[b] - m.centroid[b]); });
-    };
-    if (dimension == 2) m.inertia(2, 2) = second(0, 0) + second(1, 1);
-    if (dimension < 3) return m;
+    const Integrals sums = integrals(shape, box, dimension, [&](const Vec3& x) -> Integrals {
+      const Vec3 r = x - near;
+      return (Integrals() << 1, r[0], r[1], r[2], r[0] * r[0], r[1] * r[1], r[2] * r[2], r[1] * r[2], r[2] * r[0], r[0] * r[1])
+          .finished();
+    });
+    Vec3 offset = Vec3::Zero();
+    for (int a = 0; a < dimension; ++a) offset[a] = sums[1 + a] / sums[0];
+    m.centroid = near + offset;
+    for (int a = dimension; a < 3; ++a) m.centroid[a] = 0.0;
     Mat3 moments;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b <= a; ++b) moments(a, b) = moments(b, a) = second(a, b);
-    m.inertia = moments.trace() * Mat3::Identity() - moments;
+    moments << sums[4], sums[9], sums[8], sums[9], sums[5], sums[7], sums[8], sums[7], sums[6];
+    moments -= sums[0] * offset * offset.transpose();
+    if (dimension == 2) m.inertia(2, 2) = moments(0, 0) + moments(1, 1);
+    if (dimension == 3) m.inertia = moments.trace() * Mat3::Identity() - moments;
     return m;
   }
 };

@@ -99,6 +99,7 @@ double to_polygon(const Polygon& points, double r, double z) {
 struct Distance {
   const Vec3& x;
   int dimension;
+  double beyond;
 
   double operator()(const Box& box) const {
     std::array<double, 3> q{-unbounded, -unbounded, -unbounded};
@@ -137,23 +138,24 @@ struct Distance {
     return along / std::sqrt(square);
   }
   double operator()(const Revolution& r) const { return to_polygon(r.points, radial(x, r.center, r.axis, dimension), x[r.axis]); }
-  double operator()(const Stl& stl) const { return stl.read->signed_distance(x); }
+  double operator()(const Stl& stl) const { return stl.read->signed_distance(x, beyond); }
   double operator()(const Union& of) const {
     double least = unbounded;
-    for (const Primitive& each : of.shapes) least = std::min(least, signed_distance(each, x, dimension));
+    for (const Primitive& each : of.shapes) least = std::min(least, signed_distance(each, x, dimension, beyond));
     return least;
   }
   double operator()(const Intersection& of) const {
     double largest = -unbounded;
-    for (const Primitive& each : of.shapes) largest = std::max(largest, signed_distance(each, x, dimension));
+    for (const Primitive& each : of.shapes) largest = std::max(largest, signed_distance(each, x, dimension, beyond));
     return largest;
   }
   double operator()(const Difference& of) const {
-    double largest = signed_distance(of.shapes[0], x, dimension);
-    for (std::size_t k = 1; k < of.shapes.size(); ++k) largest = std::max(largest, -signed_distance(of.shapes[k], x, dimension));
+    double largest = signed_distance(of.shapes[0], x, dimension, beyond);
+    for (std::size_t k = 1; k < of.shapes.size(); ++k)
+      largest = std::max(largest, -signed_distance(of.shapes[k], x, dimension, beyond));
     return largest;
   }
-  double operator()(const Placed& p) const { return signed_distance(p.shape[0], p.before(x), dimension); }
+  double operator()(const Placed& p) const { return signed_distance(p.shape[0], p.before(x), dimension, beyond); }
 
   double round(int axis, double low, double high, double across) const {
     std::array<double, 2> q{-unbounded, -unbounded};
@@ -350,13 +352,18 @@ bool is_slow(const Shape& shape) {
          std::any_of(shape.removed.begin(), shape.removed.end(), [](const Primitive& each) { return is_slow(each); });
 }
 
-/// What a cell about a place counts beside its content: 1, or the length of the circle that the place runs round the axis.
-using Way = std::function<double(const Vec3& middle, const Vec3& size)>;
+/// What a cell about a place counts beside its content: 1, or the length of the circle that the place runs round the axis; or many
+/// weights at once, the first of which says when the sum has settled.
+template <class Value>
+using Way = std::function<Value(const Vec3& middle, const Vec3& size)>;
+double leading(double value) { return value; }
+double leading(const Integrals& values) { return values[0]; }
 double once(const Vec3&, const Vec3&) { return 1.0; }
 double round_the_axis(const Vec3& x, const Vec3&) { return 2.0 * std::numbers::pi * x[0]; }
 
 /// Exact volume of boxes and slabs less boxes and slabs: the window is cut along every face, each piece is in or out.
-double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension, const Way& weight) {
+template <class Value>
+Value volume_of_boxes(const Shape& shape, const Bounds& window, int dimension, const Way<Value>& weight, const Value& zero) {
   std::array<std::vector<double>, 3> cuts;
   for (int a = 0; a < 3; ++a) cuts[a] = {a < dimension ? window.low[a] : 0, a < dimension ? window.high[a] : 1};
   for (const Primitive& removed : shape.removed) {
@@ -366,7 +373,7 @@ double volume_of_boxes(const Shape& shape, const Bounds& window, int dimension, 
         if (cut > window.low[a] && cut < window.high[a]) cuts[a].push_back(cut);
   }
   for (auto& cut : cuts) std::sort(cut.begin(), cut.end());
-  double total = 0;
+  Value total = zero;
   for (std::size_t i = 0; i + 1 < cuts[0].size(); ++i)
     for (std::size_t j = 0; j + 1 < cuts[1].size(); ++j)
       for (std::size_t k = 0; k + 1 < cuts[2].size(); ++k) {
@@ -407,12 +414,14 @@ double share_below_plane(double distance, const Vec3& normal, const Vec3& size, 
 /// Volume of the part of one cell inside the shape, the surface in it taken as a plane.
 double share(const Shape& shape, const Vec3& center, const Vec3& size, double distance, int dimension) {
   Vec3 gradient = Vec3::Zero();
+  const double beyond = std::abs(distance) + 0.3 * size.head(dimension).maxCoeff();
   for (int a = 0; a < dimension; ++a) {
     const double step = 0.25 * size[a];
     Vec3 below = center, above = center;
     below[a] -= step;
     above[a] += step;
-    gradient[a] = (signed_distance(shape, above, dimension) - signed_distance(shape, below, dimension)) / (2 * step);
+    gradient[a] =
+        (signed_distance(shape, above, dimension, beyond) - signed_distance(shape, below, dimension, beyond)) / (2 * step);
   }
   const double length = gradient.norm();
   if (!(length > 1e-3)) return distance < 0 ? 1 : 0;
@@ -457,11 +466,13 @@ std::vector<double> numbers_of(Primitive shape) {
 
 bool same_shape(const Primitive& one, const Primitive& other) { return numbers_of(one) == numbers_of(other); }
 
-double signed_distance(const Primitive& shape, const Vec3& x, int dimension) { return std::visit(Distance{x, dimension}, shape); }
+double signed_distance(const Primitive& shape, const Vec3& x, int dimension, double beyond) {
+  return std::visit(Distance{x, dimension, beyond}, shape);
+}
 
-double signed_distance(const Shape& shape, const Vec3& x, int dimension) {
-  double distance = signed_distance(shape.base, x, dimension);
-  for (const Primitive& removed : shape.removed) distance = std::max(distance, -signed_distance(removed, x, dimension));
+double signed_distance(const Shape& shape, const Vec3& x, int dimension, double beyond) {
+  double distance = signed_distance(shape.base, x, dimension, beyond);
+  for (const Primitive& removed : shape.removed) distance = std::max(distance, -signed_distance(removed, x, dimension, beyond));
   return distance;
 }
 
@@ -494,13 +505,15 @@ bool is_mirrored(const Primitive& shape, int axis, double at, int dimension) {
   if (shape.index() <= Primitive(Ellipsoid{}).index()) return true;
   constexpr int along = 29;
   const Vec3 step = (box.high - box.low) / (along - 1);
+  const double near = 0.1 * size;  // farther off one is as good as another
   for (int i = 0; i < along; ++i)
     for (int j = 0; j < (dimension > 1 ? along : 1); ++j)
       for (int k = 0; k < (dimension > 2 ? along : 1); ++k) {
         const Vec3 x = box.low + Vec3(i, j, k).cwiseProduct(step);
         Vec3 image = x;
         image[axis] = 2 * at - x[axis];
-        if (std::abs(signed_distance(shape, x, dimension) - signed_distance(shape, image, dimension)) > 1e-6 * size) return false;
+        if (std::abs(signed_distance(shape, x, dimension, near) - signed_distance(shape, image, dimension, near)) > 1e-6 * size)
+          return false;
       }
   return true;
 }
@@ -517,34 +530,36 @@ namespace {
 
 // Cells that the surface may cross are halved level by level. Each level gives an estimate with an error of second order
 // in the cell size (curvature of the surface, edges), so two levels are extrapolated; it ends when that has settled.
-double volume(const Shape& shape, const Bounds& given_window, int dimension, const Way& weight,
-              std::size_t most_cells = 3'000'000) {
+template <class Value>
+Value summed(const Shape& shape, const Bounds& given_window, int dimension, const Way<Value>& weight, const Value& zero,
+             std::size_t most_cells = 3'000'000) {
   assert(dimension >= 1 && dimension <= 3);
   const Bounds window = common(given_window, bounds(shape, dimension));
   for (int a = 0; a < dimension; ++a)
-    if (!(window.low[a] < window.high[a])) return 0;
+    if (!(window.low[a] < window.high[a])) return zero;
   if (is_axis_aligned(shape.base) && shape.removed.size() <= 40 &&
       std::all_of(shape.removed.begin(), shape.removed.end(), is_axis_aligned))
-    return volume_of_boxes(shape, window, dimension, weight);
+    return volume_of_boxes<Value>(shape, window, dimension, weight, zero);
 
   // A wall may be thinner than any cell that can be afforded: take it as the difference of two solid cylinders.
   if (const auto* tube = std::get_if<TubeShape>(&shape.base); tube && tube->inner > 0 && has_radius(tube->axis, dimension)) {
     const auto solid = [&](double radius) {
-      return volume({Cylinder{.axis = tube->axis, .center = tube->center, .radius = radius, .low = tube->low, .high = tube->high},
-                     shape.removed},
-                    window, dimension, weight, most_cells);
+      return summed<Value>(
+          {Cylinder{.axis = tube->axis, .center = tube->center, .radius = radius, .low = tube->low, .high = tube->high},
+           shape.removed},
+          window, dimension, weight, zero, most_cells);
     };
-    return solid(tube->outer) - solid(tube->inner);
+    return Value(solid(tube->outer) - solid(tube->inner));
   }
 
   Vec3 size = Vec3::Ones();
   for (int a = 0; a < dimension; ++a) size[a] = window.high[a] - window.low[a];
-  if (!(longest(size, dimension) < 1e100)) return std::numeric_limits<double>::infinity();
+  if (!(longest(size, dimension) < 1e100)) return Value(zero + std::numeric_limits<double>::infinity());
 
   if (is_slow(shape)) most_cells = std::min(most_cells, std::size_t{200'000});
   constexpr double settled = 1e-6;
   std::vector<Vec3> crossed{0.5 * (window.low + window.high)}, finer;
-  double inside = 0, last_estimate = 0, last_extrapolated = 0;
+  Value inside = zero, last_estimate = zero, last_extrapolated = zero;
   for (int level = 0; level < 60; ++level) {
     const double most = longest(size, dimension);
     std::array<int, 3> pieces{1, 1, 1};
@@ -558,7 +573,7 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension, con
     const double reach = half_diagonal(cell, dimension);
     const double cell_volume = content(cell, dimension);
     finer.clear();
-    double estimate = 0;
+    Value estimate = zero;
     for (const Vec3& center : crossed)
       for (int i = 0; i < pieces[0]; ++i)
         for (int j = 0; j < pieces[1]; ++j)
@@ -566,7 +581,7 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension, con
             const std::array<int, 3> at{i, j, k};
             Vec3 x = center;
             for (int a = 0; a < dimension; ++a) x[a] += (at[a] + 0.5) * cell[a] - 0.5 * size[a];
-            const double distance = signed_distance(shape, x, dimension);
+            const double distance = signed_distance(shape, x, dimension, reach);
             if (distance >= reach) continue;
             if (distance <= -reach) {
               inside += cell_volume * weight(x, cell);
@@ -578,8 +593,9 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension, con
     crossed.swap(finer);
     size = cell;
     estimate += inside;
-    const double extrapolated = all_halved && level > 0 ? (4 * estimate - last_estimate) / 3 : estimate;
-    const bool steady = level >= 4 && std::abs(extrapolated - last_extrapolated) <= settled * std::abs(extrapolated);
+    const Value extrapolated = all_halved && level > 0 ? Value((4 * estimate - last_estimate) / 3) : estimate;
+    const bool steady =
+        level >= 4 && std::abs(leading(extrapolated) - leading(last_extrapolated)) <= settled * std::abs(leading(extrapolated));
     last_estimate = estimate;
     last_extrapolated = extrapolated;
     if (crossed.empty()) return inside;
@@ -591,32 +607,41 @@ double volume(const Shape& shape, const Bounds& given_window, int dimension, con
 }  // namespace
 
 double volume(const Shape& shape, const Bounds& window, int dimension) {
-  if (const auto* stl = std::get_if<Stl>(&shape.base); stl && shape.removed.empty()) {
-    const Bounds& box = stl->read->bounds();
-    if ((window.low.array() <= box.low.array()).all() && (window.high.array() >= box.high.array()).all())
-      return stl->read->volume();
+  if (const auto* stl = std::get_if<Stl>(&shape.base)) {
+    const double whole = stl->read->volume(window);
+    if (shape.removed.empty()) return whole;
+    return whole - volume({Intersection{{Union{shape.removed}, shape.base}}, {}}, window, dimension);
   }
-  return std::max(volume(shape, window, dimension, once), 0.0);
+  if (const auto* of = std::get_if<Placed>(&shape.base); of && shape.removed.empty()) {
+    const Bounds box = bounds(shape.base, dimension);
+    const Vec3 before = of->before(Vec3::Zero());
+    bool all = true;
+    for (int a = 0; a < dimension; ++a) all = all && window.low[a] <= box.low[a] && window.high[a] >= box.high[a];
+    if (all) return volume({of->shape[0], {}}, bounds(of->shape[0], dimension), dimension);
+    if (of->turn.isIdentity(0.0)) return volume({of->shape[0], {}}, {window.low + before, window.high + before}, dimension);
+  }
+  return std::max(summed<double>(shape, window, dimension, once, 0.0), 0.0);
 }
 
-double integral(const Shape& shape, const Bounds& window, int dimension, const std::function<double(const Vec3&)>& weight) {
+Integrals integrals(const Shape& shape, const Bounds& window, int dimension,
+                    const std::function<Integrals(const Vec3&)>& weights) {
   // The mean over a cell by two Gauss points along each axis, exact for cubics.
   const auto mean = [&](const Vec3& middle, const Vec3& size) {
-    double sum = 0;
+    Integrals sum = Integrals::Zero();
     for (int corner = 0; corner < 1 << dimension; ++corner) {
       Vec3 x = middle;
       for (int a = 0; a < dimension; ++a) x[a] += (corner >> a & 1 ? 0.5 : -0.5) * size[a] / std::numbers::sqrt3;
-      sum += weight(x);
+      sum += weights(x);
     }
-    return sum / (1 << dimension);
+    return Integrals(sum / (1 << dimension));
   };
-  return volume(shape, window, dimension, mean, 300'000);
+  return summed<Integrals>(shape, window, dimension, mean, Integrals::Zero(), 300'000);
 }
 
 double volume_of_revolution(const Shape& shape, const Bounds& window) {
   Bounds right = window;
   right.low[0] = std::max(right.low[0], 0.0);
-  return std::max(volume(shape, right, 2, round_the_axis), 0.0);
+  return std::max(summed<double>(shape, right, 2, round_the_axis, 0.0), 0.0);
 }
 
 }  // namespace undex

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -355,11 +356,13 @@ struct Shape {
 /// Have both the same numbers, those left out that mean nothing?
 bool same_shape(const Primitive& one, const Primitive& other);
 
+inline constexpr double endless_distance = std::numeric_limits<double>::infinity();
 /// Signed distance [m] from x to the surface, negative inside; exact outside corners of the base excepted for
 /// subtractions, unions and intersections, where the sign is exact and the size the usual lower bound. Only the first `dimension`
 /// coordinates count.
-double signed_distance(const Primitive& shape, const Vec3& x, int dimension);
-double signed_distance(const Shape& shape, const Vec3& x, int dimension);
+/// What asks for less than all of it says so: where it is no less than `beyond`, any number is right that is no less either.
+double signed_distance(const Primitive& shape, const Vec3& x, int dimension, double beyond = endless_distance);
+double signed_distance(const Shape& shape, const Vec3& x, int dimension, double beyond = endless_distance);
 
 /// Smallest box round the shape (of an intersection, what the boxes of its parts have in common); +-1e300 where it has no end.
 Bounds bounds(const Primitive& shape, int dimension);
@@ -383,7 +386,9 @@ double volume(const Shape& shape, const Bounds& window, int dimension);
 /// The same of the body of revolution about x = 0 of which a shape in two dimensions is the half at x > 0 [m^3].
 double volume_of_revolution(const Shape& shape, const Bounds& window);
 
-/// Integral of a weight over shape and window, as volume() computes that of 1, to about 1e-4 relative.
-double integral(const Shape& shape, const Bounds& window, int dimension, const std::function<double(const Vec3&)>& weight);
+/// Integrals of ten weights over shape and window, as volume() computes that of 1, to about 1e-4 relative.
+using Integrals = Eigen::Array<double, 10, 1>;
+Integrals integrals(const Shape& shape, const Bounds& window, int dimension,
+                    const std::function<Integrals(const Vec3&)>& weights);
 
 }  // namespace undex

@@ -139,6 +139,34 @@ void check_edges(const Soup& soup, const std::string& path) {
                        " are turned against each other; let all corners run counterclockwise seen from outside");
 }
 
+using Corners = std::vector<Vec3>;
+
+/// The part of a polygon where side (x[axis] - at) <= 0.
+Corners below(const Corners& polygon, int axis, double at, double side) {
+  Corners kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+    const double here = side * (from[axis] - at), there = side * (to[axis] - at);
+    if (here <= 0) kept.push_back(from);
+    if ((here < 0 && there > 0) || (here > 0 && there < 0)) {
+      kept.push_back(from + here / (here - there) * (to - from));
+      kept.back()[axis] = at;
+    }
+  }
+  return kept;
+}
+
+/// Volume between a polygon and its projection on z = 0, negative where it runs clockwise; heights count up to `top`.
+double prism(const Corners& polygon, double top) {
+  double sum = 0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const Vec3 &a = polygon[0], &b = polygon[k - 1], &c = polygon[k];
+    const double area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]));
+    sum += area * (std::min(a[2], top) + std::min(b[2], top) + std::min(c[2], top)) / 3.0;
+  }
+  return sum;
+}
+
 }  // namespace
 
 struct TriangleSurface::Implementation {
@@ -217,10 +245,14 @@ std::shared_ptr<const TriangleSurface> TriangleSurface::read(const std::string& 
   return parse(text, path, scale);
 }
 
-double TriangleSurface::signed_distance(const Vec3& x) const {
+double TriangleSurface::signed_distance(const Vec3& x, double beyond) const {
+  const Bounds& box = self_->box;
+  const Vec3 nearest_in_box = x.cwiseMax(box.low).cwiseMin(box.high);
+  if ((x - nearest_in_box).norm() >= beyond) return beyond;
   const Point place(x[0], x[1], x[2]);
-  const double distance = std::sqrt(self_->tree.squared_distance(place));
-  if (!self_->box.holds(x, 0.0)) return distance;
+  const bool far = std::isfinite(beyond) && !self_->tree.do_intersect(Kernel::Sphere_3(place, beyond * beyond));
+  const double distance = far ? beyond : std::min(beyond, std::sqrt(self_->tree.squared_distance(place)));
+  if (!box.holds(x, 0.0)) return distance;
   return (*self_->side)(place) == CGAL::ON_BOUNDED_SIDE ? -distance : distance;
 }
 
@@ -233,6 +265,23 @@ double TriangleSurface::reach(const Vec3& direction) const {
 }
 
 double TriangleSurface::volume() const { return self_->volume; }
+
+/// Beneath each triangle stands a prism along z; those of triangles that look down count negative, and what is left is the body.
+double TriangleSurface::volume(const Bounds& window) const {
+  const Vec3 low = window.low.cwiseMax(self_->box.low), high = window.high.cwiseMin(self_->box.high), size = high - low;
+  if (!(size.minCoeff() > 0)) return 0;
+  double sum = 0;
+  for (const auto face : self_->mesh.faces()) {
+    Corners corners;
+    for (const auto vertex : CGAL::vertices_around_face(self_->mesh.halfedge(face), self_->mesh))
+      corners.push_back(vector(self_->mesh.point(vertex)) - low);
+    for (const int a : {0, 1}) corners = below(below(corners, a, size[a], 1.0), a, 0.0, -1.0);
+    corners = below(corners, 2, 0.0, -1.0);  // beneath the window there is nothing
+    sum += prism(below(corners, 2, size[2], 1.0), size[2]) + prism(below(corners, 2, size[2], -1.0), size[2]);
+  }
+  return sum;
+}
+
 const Vec3& TriangleSurface::centroid() const { return self_->centroid; }
 const Mat3& TriangleSurface::second_moment() const { return self_->second; }
 std::size_t TriangleSurface::triangle_count() const { return self_->mesh.number_of_faces(); }

@@ -1,6 +1,7 @@
 // A closed surface of triangles, as STL files have it: the one place that knows the library behind it.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,12 +25,15 @@ class TriangleSurface {
   TriangleSurface(TriangleSurface&&) = delete;
   ~TriangleSurface();
 
-  /// From x to the nearest triangle, negative inside [m]; exact up to rounding.
-  double signed_distance(const Vec3& x) const;
+  /// From x to the nearest triangle, negative inside [m]; exact up to rounding, but `beyond` (negative inside) where it is no
+  /// less. In the middle of a ball all triangles are as near, and the nearest takes long to find; `beyond` does not.
+  double signed_distance(const Vec3& x, double beyond = std::numeric_limits<double>::infinity()) const;
   const Bounds& bounds() const;
   /// The largest x.d of its points [m] for a direction d.
   double reach(const Vec3& direction) const;
-  double volume() const;              ///< [m^3]
+  double volume() const;  ///< [m^3]
+  /// Of the part within a window [m^3], exact.
+  double volume(const Bounds& window) const;
   const Vec3& centroid() const;       ///< of the body of uniform density [m]
   const Mat3& second_moment() const;  ///< integral of (x - centroid) (x - centroid)^T [m^5]
   std::size_t triangle_count() const;

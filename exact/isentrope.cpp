@@ -30,6 +30,8 @@ double inner_pressure(const materials::FluidLaw& law) {
 /// Has the law come to its end: is its sound speed [m/s] held at a guard, since its own is not real, or has its Grueneisen
 /// parameter fallen to zero in tension?
 bool is_beyond(const materials::FluidLaw& law, double density, double sound) {
+  if (const auto* polynomial = std::get_if<materials::PolynomialWater>(&law))
+    return sound * sound <= 0.01 * polynomial->parameters().A / polynomial->parameters().rho0 * (1.0 + 1e-12);
   const auto* water = std::get_if<materials::MieGruneisenWater>(&law);
   if (water == nullptr) return false;
   const auto& p = water->parameters();
@@ -42,6 +44,8 @@ double floor_pressure(const materials::FluidLaw& law) {
   if (const auto* tait = std::get_if<materials::TaitWater>(&law))
     if (tait->parameters().cavitation != materials::Cavitation::none) return tait->evaluate(tait->floor_density(), 0.0).pressure;
   if (const auto* water = std::get_if<materials::MieGruneisenWater>(&law))
+    if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
+  if (const auto* water = std::get_if<materials::PolynomialWater>(&law))
     if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
   return -std::numeric_limits<double>::infinity();
 }

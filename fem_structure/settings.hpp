@@ -9,22 +9,12 @@
 #include "core/radial_motion.hpp"
 #include "core/record.hpp"
 #include "core/rigid_plane.hpp"
+#include "core/support.hpp"
 #include "core/vector.hpp"
 #include "fem_structure/meshes.hpp"
 #include "materials/solid.hpp"
 
 namespace undex::fem {
-
-/// Nodes of a named face whose marked velocity components stay zero.
-struct Support {
-  std::string face;
-  std::array<bool, 3> fixed{true, true, true};
-};
-template <class Visit>
-void describe(Support& support, Visit&& visit) {
-  visit(support.face, {.name = "face", .needed = true, .remedy = "name the face that is held", .values = "a face"});
-  visit(support.fixed, {.name = "fixed", .meaning = "components of the motion that are held"});
-}
 
 /// Uniform pressure history on a face, piecewise linear in time (a structure alone under a prescribed load).
 struct PressureLoad {
@@ -63,7 +53,8 @@ struct Settings {
   std::vector<RigidPlane> planes;
   Vec3 initial_velocity = Vec3::Zero();  ///< [m/s]
   std::optional<RadialMotion> radial;    ///< added to it
-  bool moves() const { return !initial_velocity.isZero(0.0) || radial; }
+  Vec3 spin = Vec3::Zero();              ///< added too, about the middle of the mesh's extent [rad/s]
+  bool moves() const { return !initial_velocity.isZero(0.0) || !spin.isZero(0.0) || radial; }
   Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
   double start_time = 0;           ///< [s] when it begins to move
   double courant = 0.8;            ///< share of the computed stable step that is used, in (0, 1]
@@ -104,6 +95,10 @@ void describe(Settings& structure, Visit&& visit) {
         {.name = "wet", .values = "list of faces", .meaning = "those that the water touches; needed where there are bodies"});
   visit(ByHand{}, {.name = "loads", .rule = "[]", .values = "list of tables", .meaning = "pressure histories on faces"});
   visit(structure.initial_velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
+  visit(structure.spin, {.name = "spin",
+                         .unit = "rad/s",
+                         .form = Form::turn,
+                         .meaning = "at the start, about the middle of its extent; added to `velocity`"});
   visit(ByHand{}, {.name = "radial",
                    .rule = "none",
                    .values = "a [table](#radial-motion)",

@@ -87,7 +87,7 @@ void check(const Settings& settings, const Grid& grid) {
                    material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus, " Pa; both must be positive");
   mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ", material.heat_capacity,
                    " J/kg/K; it must be positive");
-  mistakes.require(settings.initial_velocity.allFinite(), "the initial velocity is not finite");
+  mistakes.require(settings.initial_velocity.allFinite() && settings.spin.allFinite(), "the initial velocity is not finite");
   mistakes.require(settings.points_through >= 2 && settings.points_through <= most_layers,
                    "points_through = ", settings.points_through, "; give 2 to ", most_layers);
 
@@ -242,6 +242,11 @@ struct Structure::Implementation {
     velocity.assign(n, settings.initial_velocity);
     if (settings.radial)
       for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.radial->at(grid.nodes[i]);
+    if (!settings.spin.isZero(0.0)) {
+      Bounds extent;
+      for (const Vec3& x : grid.nodes) extent.include(x);
+      for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.spin.cross(grid.nodes[i] - 0.5 * (extent.low + extent.high));
+    }
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;

@@ -8,6 +8,7 @@
 #include "materials/gas.hpp"
 #include "materials/jwl.hpp"
 #include "materials/mie_gruneisen_water.hpp"
+#include "materials/polynomial_water.hpp"
 #include "materials/pressure_sound.hpp"
 #include "materials/stiffened_gas.hpp"
 #include "materials/tait_water.hpp"
@@ -40,7 +41,7 @@ concept IsBarotropic = !Law::uses_energy && requires(const Law& law, double rho)
 template <class... Laws>
 requires((IsFluidLaw<Laws> && (Laws::uses_energy || IsBarotropic<Laws>)) && ...) using FluidLaws = std::variant<Laws...>;
 
-using FluidLaw = FluidLaws<TaitWater, BarotropicGas, IdealGas, StiffenedGas, Jwl, MieGruneisenWater>;
+using FluidLaw = FluidLaws<TaitWater, BarotropicGas, IdealGas, StiffenedGas, Jwl, MieGruneisenWater, PolynomialWater>;
 
 /// Does the law need an internal-energy field?
 bool uses_energy(const FluidLaw& law);

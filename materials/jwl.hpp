@@ -19,7 +19,7 @@ class Jwl {
     double omega;   ///< [-]
     double E0;      ///< detonation energy [J/kg]
     double D;       ///< detonation speed [m/s]
-    double p_cj;    ///< Chapman-Jouguet pressure [Pa]; D and p_cj are as published, not derived from the rest
+    double p_cj;    ///< Chapman-Jouguet pressure [Pa]; D and p_cj are as published, or else those of the rest (jwl_isentrope.hpp)
   };
   static constexpr const char* name = "jwl";
   static constexpr const char* summary =
@@ -54,11 +54,23 @@ void describe(Jwl::Parameters& p, Visit&& visit) {
   visit(p.R1, {.name = "R1", .range = Range::positive(), .needed = true, .meaning = "decay of the first term"});
   visit(p.R2, {.name = "R2", .range = Range::positive(), .needed = true, .meaning = "and of the second"});
   visit(p.omega, {.name = "omega", .range = Range::positive(), .needed = true, .meaning = "Grüneisen parameter"});
-  visit(p.E0,
-        {.name = "E0", .unit = "J/kg", .range = Range::positive(), .needed = true, .meaning = "detonation energy per mass"});
-  visit(p.D, {.name = "D", .unit = "m/s", .range = Range::positive(), .needed = true, .meaning = "detonation speed"});
+  visit(p.E0, {.name = "E0",
+               .unit = "J/kg",
+               .range = Range::positive(),
+               .rule = "from `C`",
+               .meaning = "detonation energy per mass; it or `C` is needed"});
+  visit(ByHand{}, {.name = "C",
+                   .unit = "Pa",
+                   .range = Range::positive(),
+                   .rule = "from `E0`",
+                   .meaning = "of the isentrope A exp(-R1 V) + B exp(-R2 V) + C V^-(1 + omega), V = rho0/rho, in place of `E0`"});
+  visit(p.D, {.name = "D",
+              .unit = "m/s",
+              .range = Range::positive(),
+              .rule = "that of the set's own Chapman-Jouguet state",
+              .meaning = "detonation speed"});
   visit(p.p_cj,
-        {.name = "p_cj", .unit = "Pa", .range = Range::positive(), .needed = true, .meaning = "Chapman-Jouguet pressure"});
+        {.name = "p_cj", .unit = "Pa", .range = Range::positive(), .rule = "as of `D`", .meaning = "Chapman-Jouguet pressure"});
 }
 
 inline PressureSound Jwl::evaluate(double rho, double energy) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "materials/burn.hpp"
+
 namespace undex::materials {
 
 double JwlIsentrope::pressure(double volume) const {
@@ -30,6 +32,16 @@ double detonation_energy(const JwlIsentrope& isentrope) {
   for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
     (steeper(middle) ? high : low) = middle;
   return (isentrope.energy(low) - 0.5 * isentrope.pressure(low) * (1 - low)) / isentrope.rho0;
+}
+
+void fill_in(Jwl::Parameters& p, const std::optional<double>& C) {
+  if (C) p.E0 = detonation_energy({.rho0 = p.rho0, .A = p.A, .B = p.B, .C = *C, .R1 = p.R1, .R2 = p.R2, .omega = p.omega});
+  if (p.D > 0 && p.p_cj > 0) return;
+  Jwl::Parameters any = p;
+  any.D = 1;
+  const ChapmanJouguet own = chapman_jouguet(Jwl(any));
+  if (!(p.D > 0)) p.D = own.detonation_speed;
+  if (!(p.p_cj > 0)) p.p_cj = own.pressure;
 }
 
 }  // namespace undex::materials

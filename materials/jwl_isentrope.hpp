@@ -1,6 +1,10 @@
 // Detonation products that are published by their isentrope (the form "JWLC"). SI units.
 #pragma once
 
+#include <optional>
+
+#include "materials/jwl.hpp"
+
 namespace undex::materials {
 
 /// The isentrope through the Chapman-Jouguet state, V = rho0/rho:
@@ -21,5 +25,9 @@ struct JwlIsentrope {
 /// p = (V - 1) dp/dV, the energy is E0 plus the work p (1 - V)/2 of the front. Throws std::domain_error where it touches none at
 /// 0.2 < V < 1.
 double detonation_energy(const JwlIsentrope& isentrope);
+
+/// What a set leaves out: E0 is that of the isentrope with C [Pa] where there is one, D and p_cj where they are 0 those of the
+/// set's own Chapman-Jouguet state. Throws std::domain_error where there is no such state.
+void fill_in(Jwl::Parameters& parameters, const std::optional<double>& C);
 
 }  // namespace undex::materials

@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "core/toml.hpp"
-#include "materials/burn.hpp"
 #include "materials/jwl_isentrope.hpp"
 
 namespace undex::materials {
@@ -96,27 +95,18 @@ void read_record(const Table& table, Record& record, bool complete) {
 template <class Parameters>
 void complete(const Table&, Parameters&) {}
 
-/// E0 of a set that has C, and D and p_cj of one that has none.
 void complete(const Table& set, Jwl::Parameters& p) {
-  if (const std::optional<double> C = set.find<double>("C")) {
-    if (set.has("E0")) set.complain("C", "stands in place of E0");
-    p.E0 = detonation_energy({.rho0 = p.rho0, .A = p.A, .B = p.B, .C = *C, .R1 = p.R1, .R2 = p.R2, .omega = p.omega});
-  } else if (!set.has("E0")) {
-    set.complain("E0", "is missing");
-  }
-  if (set.has("D") && set.has("p_cj")) return;
-  Jwl::Parameters any = p;
-  any.D = 1;
-  const ChapmanJouguet own = chapman_jouguet(Jwl(any));
-  if (!set.has("D")) p.D = own.detonation_speed;
-  if (!set.has("p_cj")) p.p_cj = own.pressure;
+  const std::optional<double> C = set.find<double>("C");
+  if (C && set.has("E0")) set.complain("C", "stands in place of E0");
+  if (!C && !set.has("E0")) set.complain("E0", "is missing");
+  fill_in(p, C);
 }
 
 template <class Law>
 bool read_if_named(const Table& set, const std::string& name, Fluid& into) {
   if (name != Law::name) return false;
   typename Law::Parameters parameters{};
-  read_record(set, parameters, !std::is_same_v<Law, Jwl>);
+  read_record(set, parameters, true);
   complete(set, parameters);
   into.law = Law(parameters);
   into.rho0 = parameters.rho0;

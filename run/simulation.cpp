@@ -56,9 +56,12 @@ std::array<bool, 3> balanced_axes(const scene::Scene& scene) {
     const auto pushed = pushed_by(wall, mirrors);
     for (int a = 0; a < 3; ++a) balanced[a] = balanced[a] && !pushed[a];
   }
-  if (scene.structure)
-    for (const fem::Support& support : scene.structure->supports)
-      for (int a = 0; a < 3; ++a) balanced[a] = balanced[a] && !support.fixed[a];
+  const auto held = [&](const std::vector<Support>& supports) {
+    for (const Support& support : supports)
+      for (std::size_t a = 0; a < 3; ++a) balanced[a] = balanced[a] && !support.fixed[a];
+  };
+  if (scene.structure) held(scene.structure->supports);
+  for (const solid::Body& solid : scene.solids.bodies) held(solid.supports);
   return balanced;
 }
 

@@ -62,6 +62,7 @@ std::string element_path(const char* list, const Node& element, std::size_t inde
 bool read_fluid_material(const Node& node, const std::string& path, Draft& draft, materials::Fluid& into);
 bool read_solid_material(const Node& node, const std::string& path, Draft& draft, materials::Solid& into);
 /// radial = {...} of a body, a solid or the structure.
+void read_supports(const TableReader& table, const std::vector<std::string>& faces, std::vector<Support>& into);
 void read_radial(const TableReader& table, std::optional<RadialMotion>& into);
 /// All of [materials], used or not.
 void read_own_materials(Draft& draft);
@@ -72,7 +73,7 @@ void read_subtractions(const TableReader& table, Draft& draft, std::size_t from,
 void resolve_subtractions(Draft& draft);
 
 /// For what a shape is used: bodies that have to end somewhere, rigid containers, or anything.
-enum class ShapeUse { any, bounded, container };
+enum class ShapeUse { any, bounded };
 /// A shape table: a type with its keys, and those of a placement. Returns whether it was good.
 bool read_shape(const Node& node, const std::string& path, Draft& draft, ShapeUse use, Primitive& into);
 

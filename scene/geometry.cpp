@@ -26,11 +26,11 @@ bool within(const Bounds& window, const Vec3& x, int dimension) {
 
 }  // namespace
 
-Depth inside(const Shape& shape, int dimension) {
-  return [&shape, dimension](const Vec3& x) { return -signed_distance(shape, x, dimension); };
+NearDepth inside(const Shape& shape, int dimension) {
+  return [&shape, dimension](const Vec3& x, double beyond) { return -signed_distance(shape, x, dimension, beyond); };
 }
-Depth outside(const Shape& shape, int dimension) {
-  return [&shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); };
+NearDepth outside(const Shape& shape, int dimension) {
+  return [&shape, dimension](const Vec3& x, double beyond) { return signed_distance(shape, x, dimension, beyond); };
 }
 
 Bounds common(const Bounds& a, const Bounds& b) { return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)}; }
@@ -42,7 +42,8 @@ Bounds kept_part(const std::array<bool, 3>& symmetric) {
   return part;
 }
 
-std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& window, double depth, int dimension) {
+std::optional<Vec3> find_in_both(const NearDepth& first, const NearDepth& second, const Bounds& window, double depth,
+                                 int dimension) {
   Vec3 size = Vec3::Zero();
   for (int axis = 0; axis < dimension; ++axis) {
     size[axis] = window.high[axis] - window.low[axis];
@@ -51,7 +52,9 @@ std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& w
   const int along = dimension == 1 ? 2001 : dimension == 2 ? 121 : 25;  // odd: the middle is among them
   const int count[3] = {along, dimension > 1 ? along : 1, dimension > 2 ? along : 1};
   const double cell = size.norm() / along;
-  const double probe = 1e-3 * cell;
+  const double probe = 1e-3 * cell, beyond = 2.1 * cell + 2.1 * depth;
+  const auto a = [&](const Vec3& x) { return first(x, beyond); };
+  const auto b = [&](const Vec3& x) { return second(x, beyond); };
   for (int i = 0; i < count[0]; ++i)
     for (int j = 0; j < count[1]; ++j)
       for (int k = 0; k < count[2]; ++k) {

@@ -10,13 +10,15 @@ namespace undex::scene {
 
 /// Depth [m] of a point in something: positive inside, changing by at most the distance moved.
 using Depth = std::function<double(const Vec3&)>;
+/// The same; where it is no less than `beyond`, any number that is no less either.
+using NearDepth = std::function<double(const Vec3&, double beyond)>;
 
-Depth inside(const Shape& shape, int dimension);
-Depth outside(const Shape& shape, int dimension);
+NearDepth inside(const Shape& shape, int dimension);
+NearDepth outside(const Shape& shape, int dimension);
 
 /// A point of the window that is deeper than `depth` in both, if a search by samples finds one: on a grid, and from each
 /// grid point just under the surface of either. So thin overlaps along surfaces are found; tiny ones at a corner may not be.
-std::optional<Vec3> find_in_both(const Depth& a, const Depth& b, const Bounds& window, double depth, int dimension);
+std::optional<Vec3> find_in_both(const NearDepth& a, const NearDepth& b, const Bounds& window, double depth, int dimension);
 
 /// The common part of two boxes.
 Bounds common(const Bounds& a, const Bounds& b);

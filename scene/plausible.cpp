@@ -117,19 +117,24 @@ void check_moduli(const TableReader& table, const Solid& solid, double density, 
   }
 }
 
+void expect_usual_unit_of_explosive(const TableReader& table, const Key& key, double value, double density) {
+  for (const auto& [name, usual] : of_explosives()) {
+    if (std::string_view(name) != key.name || usual.holds(value) || !table.has(key.name)) continue;
+    std::string why = guess(usual, value);
+    if (std::string_view(key.name) == "E0" && value > usual.high && usual.holds(value / density))
+      why = "; is it per volume, in J/m^3? Per mass it would be " + rounded(value / density);
+    table.complain(key.name, table.path_of(key.name) + " = " + shortest(value) +
+                                 (*usual.unit ? std::string(" [") + usual.unit + "]" : "") + " is not that of an explosive, " +
+                                 rounded(usual.low) + " to " + rounded(usual.high) + why);
+  }
+}
+
 }  // namespace
 
 void expect_usual_units(const TableReader& table, const Jwl::Parameters& p) {
-  for_each_field(p, [&](const auto& value, const Key& key) {
-    for (const auto& [name, usual] : of_explosives()) {
-      if (std::string_view(name) != key.name || usual.holds(value)) continue;
-      std::string why = guess(usual, value);
-      if (std::string_view(key.name) == "E0" && value > usual.high && usual.holds(value / p.rho0))
-        why = "; is it per volume, in J/m^3? Per mass it would be " + rounded(value / p.rho0);
-      table.complain(key.name, table.path_of(key.name) + " = " + shortest(value) +
-                                   (*usual.unit ? std::string(" [") + usual.unit + "]" : "") + " is not that of an explosive, " +
-                                   rounded(usual.low) + " to " + rounded(usual.high) + why);
-    }
+  for_each_field(p, [&](const auto& member, const Key& key) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>)
+      expect_usual_unit_of_explosive(table, key, member, p.rho0);
   });
 }
 
@@ -140,6 +145,10 @@ void expect_usual_units(const TableReader& table, const TaitWater::Parameters& p
 void expect_usual_units(const TableReader& table, const MieGruneisenWater::Parameters& p) {
   expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
   expect_unit(table, "C0", table.path_of("C0"), "a liquid", usual_speed, p.C0);
+}
+void expect_usual_units(const TableReader& table, const PolynomialWater::Parameters& p) {
+  expect_unit(table, "rho0", table.path_of("rho0"), "a liquid", usual_density, p.rho0);
+  expect_unit(table, "A", table.path_of("A"), "a liquid", usual_stiffness, p.A);
 }
 /// Also used without dimensions: only where the density is a liquid's.
 void expect_usual_units(const TableReader& table, const StiffenedGas::Parameters& p) {

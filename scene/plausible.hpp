@@ -12,6 +12,7 @@ namespace undex::scene {
 void expect_usual_units(const TableReader& table, const materials::Jwl::Parameters& p);
 void expect_usual_units(const TableReader& table, const materials::TaitWater::Parameters& p);
 void expect_usual_units(const TableReader& table, const materials::MieGruneisenWater::Parameters& p);
+void expect_usual_units(const TableReader& table, const materials::PolynomialWater::Parameters& p);
 void expect_usual_units(const TableReader& table, const materials::StiffenedGas::Parameters& p);
 /// Gases are also used without dimensions.
 inline void expect_usual_units(const TableReader&, const materials::BarotropicGas::Parameters&) {}

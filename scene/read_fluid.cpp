@@ -1,6 +1,7 @@
 // [resolution], [symmetry], [scheme], [[bodies]] and [[walls]].
 #include <algorithm>
 
+#include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
 #include "scene/line.hpp"
@@ -261,13 +262,56 @@ void read_faces(const TableReader& table, FaceCondition otherwise, sph::Wall& wa
   }
 }
 
+/// Is the shape none that walls have faces of: another type, or one that is turned?
+bool is_free_form(const Node* shape) {
+  if (!shape || shape->kind != Node::Kind::table) return false;
+  if (shape->find("rotate") || shape->find("move")) return true;
+  const Node* type = shape->find("type");
+  bool container = true;
+  if (type && type->kind == Node::Kind::text)
+    Alternatives<Primitive>::with(type->text, [&]<class Type>(std::type_identity<Type>) { container = Type::is_container; });
+  return !container;
+}
+
+/// A wall of any shape is a rigid obstacle about it: a box with that hole.
+void read_free_wall(const TableReader& table, const Node& shape, Draft& draft) {
+  const std::size_t before = draft.report.size();
+  coupling::Obstacle around;
+  around.name = table.path().substr(table.path().find('.') + 1);
+  table.read_name("name", around.name);
+  FaceCondition condition = FaceCondition::free_slip;
+  table.read_choice("condition", condition, choices<FaceCondition>());
+  const std::string only = ": only a box, cylinder, cone or sphere along the axes has ";
+  if (condition != FaceCondition::free_slip)
+    table.complain("condition",
+                   table.path_of("condition") + only + "another condition than \"free_slip\"; take that, or such a shape");
+  for (const char* key : {"faces", "source"})
+    if (table.has(key))
+      table.complain(key, table.path_of(key) + only + (key[0] == 'f' ? "faces" : "a source") + "; leave it out");
+  Primitive hole;
+  if (read_shape(shape, table.path_of("shape"), draft, ShapeUse::bounded, hole)) {
+    Bounds box = bounds(hole, table.dimension());
+    const double thickness = 0.1 * (box.high - box.low).head(table.dimension()).maxCoeff();
+    for (int a = 0; a < 3; ++a) {
+      box.low[a] = a < table.dimension() ? box.low[a] - thickness : 0.0;
+      box.high[a] = a < table.dimension() ? box.high[a] + thickness : 0.0;
+    }
+    around.shape = Difference{{Box{box.low, box.high}, hole}};
+  }
+  if (table.dimension() == 1) table.complain("shape", table.path_of("shape") + ": in one dimension a wall is a \"box\"");
+  draft.scene.obstacles.push_back(around);
+  draft.obstacle_nodes.push_back(&table.node());
+  draft.obstacle_good.push_back(draft.report.size() == before);
+}
+
 void read_wall(const Node& node, const std::string& path, Draft& draft) {
   const TableReader table(node, path, "walls", draft.scene.fluid.dimension, draft.report);
+  if (const Node* shape = node.find("shape"); is_free_form(shape)) return read_free_wall(table, *shape, draft);
   sph::Wall wall;
   wall.name = std::to_string(draft.wall_nodes.size());
   read_fields(table, wall);
   const Node* shape = table.find("shape");
-  bool good = shape && read_shape(*shape, table.path_of("shape"), draft, ShapeUse::container, wall.container);
+  bool good = shape && read_shape(*shape, table.path_of("shape"), draft, ShapeUse::bounded, wall.container);
   if (good && table.dimension() == 1 && std::holds_alternative<Sphere>(wall.container)) {
     table.complain("shape", table.path_of("shape") + ": in one dimension a wall is a \"box\"");
     good = false;

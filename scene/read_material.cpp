@@ -1,7 +1,10 @@
 // Materials: a name of the scene's [materials] or of the library, or a table {law = ..., parameters} or
 // {base = "name", changed parameters}.
 #include <cmath>
+#include <stdexcept>
 
+#include "materials/jwl_isentrope.hpp"
+#include "materials/pedigree.hpp"
 #include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
 #include "scene/numbers.hpp"
@@ -34,7 +37,51 @@ void unknown_material(const Node& node, const std::string& path, const std::stri
                                     " ('undex materials' lists them)");
 }
 
+/// Warns of a set of the library that is not to be relied on.
+void warn_of_grade(const Node& at, const std::string& path, const std::string& name, Report& warnings) {
+  const std::optional<Pedigree> pedigree = find_pedigree(name);
+  if (pedigree && pedigree->grade == "D")
+    warnings.add(at, path + ": '" + name + "' is of grade D, without a reference or contradicting itself (" + pedigree->checked +
+                         "); take another set, or a better source");
+}
+
+void warn_of_set(const Node& at, const std::string& path, const Fluid& fluid, Report& warnings) {
+  warn_of_grade(at, path, fluid.name, warnings);
+  const auto* products = std::get_if<Jwl>(&fluid.law);
+  const std::optional<Pedigree> pedigree = find_pedigree(fluid.name);
+  if (!products || !pedigree) return;
+  const ChapmanJouguet own = chapman_jouguet(*products);
+  if (!is_verified(*pedigree, own))
+    warnings.add(at, path + ": '" + fluid.name +
+                         "' is unverified: its source lists another detonation speed or pressure than the " + "set's own " +
+                         rounded(own.detonation_speed) + " m/s and " + rounded(own.pressure * 1e-9) +
+                         " GPa; take another set, or compare with a second source");
+}
+
 const char* const all_of_a_law = "a law without 'base' needs all its parameters";
+
+/// What of a law's parameters the table leaves to the others; false where that cannot be.
+template <class Parameters>
+bool fill_in(const TableReader&, bool, Parameters&) {
+  return true;
+}
+
+bool fill_in(const TableReader& table, bool based, Jwl::Parameters& p) {
+  const std::size_t before = table.report().size();
+  std::optional<double> C;
+  table.read("C", C);
+  if (C && table.has("E0")) table.complain("C", table.path_of("C") + " stands in place of E0; leave out one of them");
+  if (!C && !table.has("E0") && !based)
+    table.complain("E0", table.path() + " needs E0, the detonation energy per mass, or C of its isentrope in its place");
+  if (table.report().size() != before) return false;
+  try {
+    materials::fill_in(p, C);
+    return true;
+  } catch (const std::domain_error& none) {
+    table.complain("C", table.path() + ": " + none.what() + ": such products do not detonate; check the set, or give D and p_cj");
+    return false;
+  }
+}
 
 /// Makes the law anew from the parameters that the table names, and from those of the base or the law's own for the rest.
 template <class Law>
@@ -44,7 +91,7 @@ bool rebuild(const TableReader& table, bool based, Draft& draft, Fluid& into) {
   const std::size_t before = table.report().size();
   read_fields(table, parameters, !based, all_of_a_law);
   if (table.report().size() == before) expect_usual_units(table, parameters);
-  if (table.report().size() != before) return false;
+  if (table.report().size() != before || !fill_in(table, based, parameters)) return false;
   try {
     into.law = Law(parameters);
     expect_plausible(table, into.law, draft.warnings);
@@ -71,6 +118,7 @@ bool fluid_by_name(const Node& at, const std::string& path, const std::string& n
   }
   if (const auto found = find_fluid(name)) {
     into = *found;
+    warn_of_set(at, path, into, draft.warnings);
     return true;
   }
   unknown_material(at, path, name, find_solid(name) ? "a solid, not a fluid" : nullptr, with_own(fluid_names(), draft),
@@ -137,6 +185,7 @@ bool solid_by_name(const Node& at, const std::string& path, const std::string& n
   }
   if (const auto found = find_solid(name)) {
     into = *found;
+    warn_of_grade(at, path, name, draft.warnings);
     return true;
   }
   unknown_material(at, path, name, find_fluid(name) ? "a fluid, not a solid" : nullptr, with_own(solid_names(), draft),

@@ -57,8 +57,11 @@ void read_obstacles(Draft& draft) {
     scene.obstacles.push_back(read_obstacle(*nodes[i], element_path("obstacles", *nodes[i], i), draft, good, i));
     draft.obstacle_nodes.push_back(nodes[i]);
     draft.obstacle_good.push_back(good);
-    if (!good || !draft.dimension_good) continue;
-    const Primitive& shape = scene.obstacles.back().shape;
+  }
+  // Also those that walls of any shape have become.
+  for (std::size_t i = 0; i < scene.obstacles.size() && draft.dimension_good; ++i) {
+    if (!draft.obstacle_good[i]) continue;
+    const Primitive& shape = scene.obstacles[i].shape;
     for (std::size_t b = 0; b < scene.fluid.bodies.size(); ++b)
       if (draft.body_shape_good[b] && !leaves_room(scene.fluid.bodies[b].shape, shape, scene))
         scene.fluid.bodies[b].shape.removed.push_back(shape);

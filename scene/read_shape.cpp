@@ -83,7 +83,7 @@ constexpr std::size_t most_parts = 1000, deepest = 20;
 
 std::vector<std::string> names_for(ShapeUse use) {
   return Alternatives<Primitive>::names([use]<class Type>(std::type_identity<Type>) {
-    const bool fits = use == ShapeUse::any || (use == ShapeUse::bounded ? Type::is_bounded : Type::is_container);
+    const bool fits = use == ShapeUse::any || Type::is_bounded;
     return fits && !requires { Type::is_modifier; };
   });
 }
@@ -117,16 +117,11 @@ bool read_parts(const TableReader& table, Draft& draft, std::vector<Primitive>& 
 }
 
 /// Turns and moves the shape where the table says so.
-void read_placement(const TableReader& table, ShapeUse use, Primitive& into) {
+void read_placement(const TableReader& table, Primitive& into) {
   if (!table.has("rotate") && !table.has("move")) {
     if (table.has("about"))
       table.complain("about", table.path_of("about") + " is of a shape that is turned; add rotate, or leave it out");
     return;
-  }
-  if (use == ShapeUse::container) {
-    const char* key = table.has("rotate") ? "rotate" : "move";
-    return table.complain(
-        key, table.path_of(key) + ": walls are not turned or moved; they are " + listed(names_for(use)) + ", along the axes");
   }
   if (table.has("rotate") && table.dimension() == 1)
     return table.complain("rotate", table.path_of("rotate") + ": nothing turns in one dimension; leave it out");
@@ -172,7 +167,7 @@ bool read_shape(const Node& node, const std::string& path, Draft& draft, ShapeUs
     }
     if (report.size() != before) return;
     into = shape;
-    read_placement(table, use, into);
+    read_placement(table, into);
     if constexpr (requires { shape.shapes; }) {
       if (report.size() == before && use == ShapeUse::bounded && !is_bounded(into, dimension))
         report.add(node,

@@ -37,6 +37,7 @@ solid::Body read_solid(const Node& node, const std::string& path, Draft& draft, 
     const std::vector<std::string> known = shape_faces(solid.shape.base, dimension, draft.scene.fluid.symmetry.axis);
     for (const std::string& face : solid.wet)
       if (std::find(known.begin(), known.end(), face) == known.end()) table.unknown_word("wet", face, known);
+    read_supports(table, known, solid.supports);
   }
   return solid;
 }

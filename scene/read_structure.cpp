@@ -126,6 +126,10 @@ void check_load(const TableReader& table, const fem::PressureLoad& load) {
 
 }  // namespace
 
+void read_supports(const TableReader& table, const std::vector<std::string>& faces, std::vector<Support>& into) {
+  read_faces(table, "supports", faces, into, [](const TableReader&, const Support&) {});
+}
+
 void read_structure(Draft& draft) {
   const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
   if (const Node* node = top.table("coupling")) {
@@ -155,7 +159,7 @@ void read_structure(Draft& draft) {
   const std::vector<std::string> faces = draft.structure_shape_good
                                              ? StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis)
                                              : std::vector<std::string>{};
-  read_faces(table, "supports", faces, structure.supports, [](const TableReader&, const fem::Support&) {});
+  read_supports(table, faces, structure.supports);
   read_faces(table, "loads", faces, structure.loads, check_load);
   structure.planes = draft.scene.solids.planes;
   structure.gravity = draft.scene.fluid.gravity;

@@ -127,6 +127,7 @@ class Judge {
     of_shape(path, body.shape);
     of_motion(path, body.radial);
     if (!is_along(body.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
+    if (!body.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (body.radial_velocity != 0.0 && std::holds_alternative<TubeShape>(body.shape.base))
       object(path + ".radial_velocity", "it points away from the middle of the shape, which a tube of revolution does not have");
     if (body.burn && !body.burn->instantaneous && !is_on_axis(body.burn->origin))
@@ -156,20 +157,26 @@ class Judge {
     }
     of_motion("structure", structure.radial);
     if (!is_along(structure.initial_velocity)) object("structure.velocity", "it must be along the axis of revolution, " + axis_);
-    for (const fem::Support& support : structure.supports) {
+    if (!structure.spin.isZero()) object("structure.spin", "nothing turns in an axisymmetric scene; leave it out");
+    of_supports("structure", structure.supports);
+    slip(structure.wet_faces.empty());
+  }
+
+  void of_supports(const std::string& path, const std::vector<Support>& supports) {
+    for (const Support& support : supports) {
       const int a = (line_.axis + 1) % 3, b = (line_.axis + 2) % 3;
       if (support.fixed[a] != support.fixed[b])
-        object("structure.supports", std::string("on the face '") + support.face +
-                                         "' both components across the axis of revolution are held, or neither: " + letters[a] +
-                                         " and " + letters[b]);
+        object(path + ".supports", std::string("on the face '") + support.face +
+                                       "' both components across the axis of revolution are held, or neither: " + letters[a] +
+                                       " and " + letters[b]);
     }
-    slip(structure.wet_faces.empty());
   }
 
   void of_solid(const solid::Body& solid) {
     const std::string path = "solids." + solid.name;
     of_shape(path, solid.shape);
     of_motion(path, solid.radial);
+    of_supports(path, solid.supports);
     if (!is_along(solid.velocity)) object(path + ".velocity", "it must be along the axis of revolution, " + axis_);
     if (!solid.spin.isZero()) object(path + ".spin", "nothing turns in an axisymmetric scene; leave it out");
     if (solid.residual_stress != 0.0) object(path + ".residual_stress", "it is there for cylinders in two and three dimensions");
@@ -300,6 +307,11 @@ sph::Wall meridian_of(const sph::Wall& wall, const Meridian& line) {
   return meridian;
 }
 
+/// Along r, along the axis, and round it, where nothing moves.
+Support meridian_of(const Support& support, const Meridian& line) {
+  return {support.face, {support.fixed[std::size_t(line.axis + 1) % 3], support.fixed[std::size_t(line.axis)], true}};
+}
+
 fem::Settings meridian_of(const fem::Settings& structure, const Meridian& line) {
   fem::Settings meridian = structure;
   meridian.axisymmetric = true;
@@ -315,11 +327,7 @@ fem::Settings meridian_of(const fem::Settings& structure, const Meridian& line) 
   meridian.initial_velocity = vector(structure.initial_velocity);
   meridian.radial = meridian_of(structure.radial, line);
   meridian.gravity = vector(structure.gravity);
-  const int outward = (line.axis + 1) % 3;
-  for (fem::Support& support : meridian.supports) {
-    const std::array<bool, 3> given = support.fixed;
-    support.fixed = {given[outward], given[line.axis], true};
-  }
+  for (Support& support : meridian.supports) support = meridian_of(support, line);
   meridian.symmetry_axes.clear();
   if (std::find(structure.symmetry_axes.begin(), structure.symmetry_axes.end(), line.axis) != structure.symmetry_axes.end())
     meridian.symmetry_axes.push_back(axial);
@@ -333,13 +341,16 @@ solid::Body meridian_of(const solid::Body& solid, const Meridian& line) {
   meridian.lattice = sph::LatticeType::cartesian;
   meridian.velocity = line.vector(solid.velocity, line.outward());
   meridian.radial = meridian_of(solid.radial, line);
+  for (Support& support : meridian.supports) support = meridian_of(support, line);
   if (std::holds_alternative<Cone>(solid.shape.base) || has_one_face(solid.shape.base)) return meridian;
   const bool tube = std::holds_alternative<TubeShape>(solid.shape.base);
-  for (std::string& face : meridian.wet) {
+  const auto rename = [&](std::string& face) {
     if (face == "side" || face == "outer") face = std::holds_alternative<Sphere>(solid.shape.base) ? "side" : "x_high";
     else if (face == "inner" && tube) face = "x_low";
     else if (face == "low" || face == "high") face = "y_" + face;
-  }
+  };
+  for (std::string& face : meridian.wet) rename(face);
+  for (Support& support : meridian.supports) rename(support.face);
   return meridian;
 }
 

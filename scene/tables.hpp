@@ -52,7 +52,7 @@ void for_each_table(auto&& visit) {
   visit("radial", "", all_defaults<RadialMotion>(), "");
   visit("walls", "", all_defaults<sph::Wall>(), "");
   visit("structure", "", all_defaults<fem::Settings>(), "");
-  visit("supports", "", all_defaults<fem::Support>(), "");
+  visit("supports", "", all_defaults<Support>(), "");
   visit("loads", "", all_defaults<fem::PressureLoad>(), "");
   visit("solids", "", all_defaults<solid::Body>(), "");
   visit("solid_scheme", "", all_defaults<solid::Numerics>(), "");

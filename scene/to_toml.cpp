@@ -92,6 +92,13 @@ void put_solid_material(Writer& writer, const std::string& header, const Solid& 
   }
 }
 
+void put_supports(Writer& writer, const std::string& owner, const std::vector<Support>& supports) {
+  for (const Support& support : supports) {
+    writer.table("[[" + owner + ".supports]]", "supports");
+    writer.fields(support);
+  }
+}
+
 void put_radial(Writer& writer, const std::string& owner, const std::optional<RadialMotion>& motion) {
   if (!motion) return;
   writer.table("[" + owner + ".radial]", "radial");
@@ -135,10 +142,7 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
   std::visit([&](const auto& mesh) { put_mesh(writer, mesh); }, structure.mesh);
   put_radial(writer, "structure", structure.radial);
   put_solid_material(writer, "structure.material", structure.material);
-  for (const fem::Support& support : structure.supports) {
-    writer.table("[[structure.supports]]", "supports");
-    writer.fields(support);
-  }
+  put_supports(writer, "structure", structure.supports);
   for (const fem::PressureLoad& load : structure.loads) {
     writer.table("[[structure.loads]]", "loads");
     writer.fields(load);
@@ -150,6 +154,7 @@ void put_solid(Writer& writer, const solid::Body& solid) {
   writer.fields(solid);
   put_shape(writer, "[solids.shape]", solid.shape.base);
   put_radial(writer, "solids", solid.radial);
+  put_supports(writer, "solids", solid.supports);
   put_solid_material(writer, "solids.material", solid.material);
 }
 

@@ -65,7 +65,7 @@ void Validator::overlaps() {
                      " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
     }
     if (!solid_ || dimension_ != 3) continue;
-    const Depth in_structure = [&](const Vec3& x) { return -solid_->signed_distance(x); };
+    const NearDepth in_structure = [&](const Vec3& x, double) { return -solid_->signed_distance(x); };
     const Bounds window = common(extent, solid_->extent());
     if (const auto at = find_in_both(in_structure, inside(*later.shape, 3), window, tolerance(), 3))
       complain(*later.node, "shape",

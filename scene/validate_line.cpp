@@ -62,6 +62,7 @@ void Validator::off_the_line(const std::string& words) {
     if (spherical && !body.velocity.isZero())
       complain(node, "velocity",
                "bodies." + body.name + ".velocity has a direction, which " + words + " does not; take radial_velocity");
+    if (!body.spin.isZero()) complain(node, "spin", "bodies." + body.name + ".spin does not go with " + words + "; leave it out");
     if (!spherical && body.radial_velocity != 0)
       complain(node, "radial_velocity",
                "bodies." + body.name + ".radial_velocity has no middle with " + words + "; take velocity");
@@ -73,6 +74,8 @@ void Validator::off_the_line(const std::string& words) {
     if (spherical && !solid.velocity.isZero())
       complain(node, "velocity", path + ".velocity has a direction, which " + words + " does not; leave it out");
     if (!solid.spin.isZero()) complain(node, "spin", path + ".spin does not go with " + words + "; leave it out");
+    if (!solid.supports.empty())
+      complain(node, "supports", path + ".supports do not go with " + words + ", whose ends rest; leave them out");
     if (solid.residual_stress != 0)
       complain(node, "residual_stress", path + ".residual_stress does not go with " + words + "; leave it out");
   }

@@ -223,7 +223,7 @@ void Validator::room_for(std::size_t index) {
       complain(node, "shape",
                path + " overlaps " + parts_[i].path() + ", e.g. at " + text(*at, dimension_) + " m; move one of them");
   if (solid_ && dimension_ == 3) {
-    const Depth in_structure = [&](const Vec3& x) { return -solid_->signed_distance(x); };
+    const NearDepth in_structure = [&](const Vec3& x, double) { return -solid_->signed_distance(x); };
     if (const auto at = find_in_both(in_structure, inside(shape, 3), common(window, solid_->extent()), tolerance(), 3))
       complain(node, "shape", path + " overlaps the structure, e.g. at " + text(*at, 3) + " m; move one of them");
   }

@@ -13,6 +13,13 @@ bool is_round_across(const Primitive& shape, int axis) {
   return false;
 }
 
+/// Has a spin a component about an axis that lies in the plane across `axis`? A mirror turns it round.
+bool turns_within(const Vec3& spin, int axis) {
+  Vec3 within = spin;
+  within[axis] = 0;
+  return within.norm() > 0;
+}
+
 std::string plane(int axis) { return std::string("the symmetry plane ") + "xyz"[axis] + " = 0"; }
 
 }  // namespace
@@ -35,6 +42,10 @@ void Validator::mirrored(const Part& one, bool fluid, const sph::Body* body) {
     if (crosses && body && body->velocity[a] != 0)
       complain(*one.node, "velocity",
                one.path() + ": its velocity across " + plane(a) +
+                   ", which cuts it, is not its own mirror image; leave out that component or the plane");
+    if (crosses && body && turns_within(body->spin, a))
+      complain(*one.node, "spin",
+               one.path() + ": its spin about an axis within " + plane(a) +
                    ", which cuts it, is not its own mirror image; leave out that component or the plane");
     if (fluid && crosses && !centred) {
       if (is_round_across(shape, a))
@@ -88,6 +99,11 @@ void Validator::mirrored_structure() {
       complain(
           node, "velocity",
           "structure.velocity has a component across " + plane(a) +
+              ", which the structure touches: it is bonded to its mirror image there; leave out that component or the plane");
+    } else if (turns_within(scene_.structure->spin, a)) {
+      complain(
+          node, "spin",
+          "structure.spin has a component about an axis within " + plane(a) +
               ", which the structure touches: it is bonded to its mirror image there; leave out that component or the plane");
     }
   }

@@ -91,8 +91,8 @@ void Validator::thin_walls() {
     const auto& solid = scene_.solids.bodies[i];
     for (const std::string& face : shape_faces(solid.shape.base, dimension_, {false, false, false}))
       if (is_dry(solid.wet, face))
-        look(inside(solid.shape, dimension_), face_points(solid.shape.base, face), "solids." + solid.name, *draft_.solid_nodes[i],
-             "add its face '" + face + "' to wet; else ");
+        look([&](const Vec3& x) { return -signed_distance(solid.shape, x, dimension_); }, face_points(solid.shape.base, face),
+             "solids." + solid.name, *draft_.solid_nodes[i], "add its face '" + face + "' to wet; else ");
   }
   if (fluid_.walls.size() < 2 ||
       std::find(draft_.wall_shape_good.begin(), draft_.wall_shape_good.end(), false) != draft_.wall_shape_good.end())

@@ -52,7 +52,8 @@ BodyParticles points_inside(const Grid& grid, const Settings& settings, const Bo
 
 BodyParticles fill(const Grid& grid, const Settings& settings, const Shape& shape, const std::string& who) {
   const Bounds box = bounds(shape, settings.dimension);
-  const auto inside = [&](const Vec3& x) { return signed_distance(shape, x, settings.dimension) < 0.0; };
+  const double near = 1e-3 * settings.lattice.spacing;
+  const auto inside = [&](const Vec3& x) { return signed_distance(shape, x, settings.dimension, near) < 0.0; };
   BodyParticles out = points_inside(grid, settings, box, inside, who);
   double sum = 0;
   for (const double cell_volume : out.volume) sum += cell_volume;

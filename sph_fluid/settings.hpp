@@ -176,8 +176,9 @@ struct Body {
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
   std::optional<RadialMotion> radial;       ///< added too
+  Vec3 spin = Vec3::Zero();                 ///< about the middle of the shape's base, added too [rad/s]
 
-  bool moves() const { return !velocity.isZero(0.0) || radial_velocity != 0 || radial; }
+  bool moves() const { return !velocity.isZero(0.0) || !spin.isZero(0.0) || radial_velocity != 0 || radial; }
   std::optional<Vec3> level{};  ///< a point where `pressure` is found; elsewhere it is hydrostatic [m]
 };
 
@@ -207,6 +208,10 @@ void describe(Body& body, Visit&& visit) {
         {.name = "radial_velocity",
          .unit = "m/s",
          .meaning = "at the start, away from the middle of the shape (negative: towards it); added to `velocity`"});
+  visit(body.spin, {.name = "spin",
+                    .unit = "rad/s",
+                    .form = Form::turn,
+                    .meaning = "at the start, about the middle of the shape; added to `velocity`"});
   visit(ByHand{}, {.name = "radial",
                    .rule = "none",
                    .values = "a [table](#radial-motion)",
@@ -287,8 +292,9 @@ void describe(Wall& wall, Visit&& visit) {
   visit(ByHand{}, {.name = "shape",
                    .needed = true,
                    .remedy = "a box, cylinder, cone or sphere round the fluid",
-                   .values = "box, cylinder, cone, sphere",
-                   .meaning = "the inside"});
+                   .values = "a [shape](#shapes)",
+                   .meaning = "the inside. Other than a box, cylinder, cone or sphere along the axes it has no faces by name and "
+                              "is \"free_slip\": it becomes an obstacle, a box with that hole"});
   visit(ByHand{},
         {.name = "condition",
          .rule = "\"free_slip\"",

@@ -10,6 +10,7 @@
 #include "core/record.hpp"
 #include "core/rigid_plane.hpp"
 #include "core/shapes.hpp"
+#include "core/support.hpp"
 #include "materials/solid.hpp"
 #include "sph_fluid/settings.hpp"
 
@@ -42,6 +43,7 @@ struct Body {
   double residual_stress = 0;
   /// Faces that water touches ("inner", "outer", "low", "high", "side", "x_low" ...): it does not see others. Empty: every face.
   std::vector<std::string> wet;
+  std::vector<Support> supports;  ///< their particles are those within a spacing of the face at the start
 };
 template <class Visit>
 void describe(Body& solid, Visit&& visit) {
@@ -92,6 +94,11 @@ void describe(Body& solid, Visit&& visit) {
          .values = "list of faces",
          .meaning = "those that water touches, in which it is mirrored; empty: all of them, but for those that lie on other "
                     "solids, walls and symmetry planes"});
+  visit(ByHand{}, {.name = "supports",
+                   .rule = "[]",
+                   .values = "list of tables",
+                   .meaning = "held faces, as of the [structure](#structure): the row of particles beneath each, half a spacing "
+                              "inside"});
 }
 
 /// Kernel (Wendland's) and steps of solid particles.

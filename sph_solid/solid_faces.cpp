@@ -69,4 +69,9 @@ bool is_wet(const Body& body, const Vec3& x, int dimension) {
   return body.wet.empty() || std::find(body.wet.begin(), body.wet.end(), nearest->name) != body.wet.end();
 }
 
+bool is_near_face(const Body& body, const std::string& face, const Vec3& x, double depth, int dimension) {
+  const std::vector<Named> faces = faces_at(body.shape.base, x, dimension);
+  return std::any_of(faces.begin(), faces.end(), [&](const Named& each) { return each.name == face && each.depth < depth; });
+}
+
 }  // namespace undex::solid

@@ -81,6 +81,7 @@ void Solids::Implementation::fill() {
       particles.sound[at] = materials::wave_speed(solid);
     }
     start_motion(group);
+    hold_supports(group);
     for (const RigidPlane& plane : settings.planes)
       group.layer.push_back(outer_layer(plane, body, particles, group.begin, group.end, group.spacing, around.dimension));
     if (body.residual_stress != 0.0) start_stress(group);
@@ -109,6 +110,17 @@ void Solids::Implementation::start_motion(const SolidGroup& group) {
     particles.v[i] = group.body->velocity + group.body->spin.cross(particles.x[i] - middle);
     if (group.body->radial) particles.v[i] += group.body->radial->at(particles.x[i]);
   }
+}
+
+void Solids::Implementation::hold_supports(const SolidGroup& group) {
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    std::array<bool, 3> fixed{};
+    for (const Support& support : group.body->supports)
+      if (is_near_face(*group.body, support.face, particles.start[i], group.spacing, around.dimension))
+        for (std::size_t a = 0; a < 3; ++a) fixed[a] = fixed[a] || support.fixed[a];
+    if (fixed != std::array<bool, 3>{}) held.push_back({i, fixed});
+  }
+  hold(particles.v);
 }
 
 void Solids::Implementation::start_stress(const SolidGroup& group) {
@@ -206,6 +218,13 @@ void Solids::Implementation::find_acceleration() {
 #pragma omp parallel for schedule(static)
   for (std::uint32_t i = 0; i < particles.size(); ++i)
     acceleration[i] = (particles.force[i] + impulse_force[i]) / particles.mass[i] + around.gravity;
+  hold(acceleration);
+}
+
+void Solids::Implementation::hold(std::vector<Vec3>& vectors) const {
+  for (const auto& [particle, fixed] : held)
+    for (std::size_t a = 0; a < 3; ++a)
+      if (fixed[a]) vectors[particle][Eigen::Index(a)] = 0.0;
 }
 
 double Solids::Implementation::held_back(double dt) const {
@@ -300,6 +319,7 @@ void Solids::kick(std::span<const Vec3> impulse) {
     s.received_work += impulse[i].dot(s.particles.v[i] + 0.5 * change);
     s.particles.v[i] += change;
   }
+  s.hold(s.particles.v);
   s.surface_has_moved = !s.surface_points.empty();
 }
 

@@ -26,8 +26,9 @@ struct Solids::Implementation {
   Settings settings;
   SolidParticles particles;
   std::vector<SolidGroup> groups;
-  std::unique_ptr<SolidPairs> pairs;              // null where no body is updated and none can touch another
-  std::vector<Vec3> acceleration, impulse_force;  // [m/s^2], [N]
+  std::unique_ptr<SolidPairs> pairs;                                // null where no body is updated and none can touch another
+  std::vector<Vec3> acceleration, impulse_force;                    // [m/s^2], [N]
+  std::vector<std::pair<std::uint32_t, std::array<bool, 3>>> held;  // particles of supports, and the components that rest
   PassTimers timers;
   double time = 0, last_step = 0;
   long steps = 0;
@@ -48,6 +49,7 @@ struct Solids::Implementation {
   // Set-up.
   void fill();
   void start_motion(const SolidGroup& group);
+  void hold_supports(const SolidGroup& group);
   void start_stress(const SolidGroup& group);
   void share_mass();  // of the particles, among the nodes of the surface
   void find_skin_mass();
@@ -69,6 +71,7 @@ struct Solids::Implementation {
   bool may_touch(const SolidGroup& group, std::size_t plane, std::uint32_t particle) const;
   void find_forces(double dt);
   void find_acceleration();
+  void hold(std::vector<Vec3>& vectors) const;  // zeroes what supports hold
   double held_back(double dt) const;
 
   void visit_state(StateVisitor& state);

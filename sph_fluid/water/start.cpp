@@ -110,6 +110,7 @@ void Fluid::Implementation::fill(std::vector<BodyParticles> bodies) {
       Vec3 velocity = body.velocity;
       if (const Vec3 away = x - center; body.radial_velocity != 0.0) velocity += body.radial_velocity / away.norm() * away;
       if (body.radial) velocity += body.radial->at(x);
+      if (!body.spin.isZero(0.0)) velocity += body.spin.cross(x - center);
       particles.x[at] = x[0];
       particles.y[at] = x[1];
       particles.z[at] = x[2];

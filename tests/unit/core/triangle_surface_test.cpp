@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -114,6 +115,67 @@ TEST(TriangleSurface, AsciiAndBinaryAreOne) {
   const auto fine = surface(ball({1, 2, 3}, 0.5, 100));
   EXPECT_NEAR(fine->volume(), std::numbers::pi / 6, 1e-3 * std::numbers::pi / 6);
   EXPECT_NEAR(fine->signed_distance({1, 2, 3}), -0.5, 5e-4);
+}
+
+/// A window cuts a box, another box; a ball's octants make the ball.
+TEST(TriangleSurface, VolumesOfWindowsAreExact) {
+  const Box same{{-0.3, 0.1, -0.2}, {0.3, 0.5, 0.3}};
+  const auto read = surface(box(same.low, same.high));
+  std::mt19937 any(5);
+  std::uniform_real_distribution<double> at(-0.5, 0.6);
+  for (int i = 0; i < 500; ++i) {
+    Bounds window;
+    for (int k = 0; k < 2; ++k) window.include(Vec3(at(any), at(any), at(any)));
+    const Vec3 size = (window.high.cwiseMin(same.high) - window.low.cwiseMax(same.low)).cwiseMax(0.0);
+    EXPECT_NEAR(read->volume(window), size.prod(), 1e-15);
+  }
+  const auto round = surface(ball({0.1, 0, -0.02}, 0.5, 40));
+  double sum = 0;
+  for (int octant = 0; octant < 8; ++octant) {
+    Bounds window{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+    for (int a = 0; a < 3; ++a) (octant >> a & 1 ? window.low : window.high)[a] = 0.13;
+    sum += round->volume(window);
+  }
+  EXPECT_NEAR(sum, round->volume(), 1e-14);
+}
+
+TEST(TriangleSurface, DistancesBeyondWhatIsAskedAreCutOff) {
+  const auto read = surface(ball({0, 0, 0}, 0.5, 30));
+  std::mt19937 any(7);
+  std::uniform_real_distribution<double> at(-0.9, 0.9);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x(at(any), at(any), at(any));
+    const double exact = read->signed_distance(x);
+    for (const double beyond : {1e-3, 0.1, 0.4})
+      EXPECT_NEAR(read->signed_distance(x, beyond), std::clamp(exact, -beyond, beyond), 1e-12);
+  }
+}
+
+/// What is taken out of a body from STL counts once, wherever it lies.
+TEST(TriangleSurface, VolumesLessOtherShapes) {
+  const Stl stl{"a.stl", 1, surface(box({-0.3, 0.1, -0.2}, {0.3, 0.5, 0.3}))};
+  const Bounds all{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
+  const double ball_volume = 4.0 / 3.0 * std::numbers::pi * 0.001;
+  const double whole = volume({stl, {}}, all, 3);
+  EXPECT_NEAR(volume({stl, {Sphere{{0, 0.3, 0}, 0.1}}}, all, 3), whole - ball_volume, 1e-5 * whole);
+  EXPECT_NEAR(volume({stl, {Sphere{{0.3, 0.3, 0}, 0.1}}}, all, 3), whole - 0.5 * ball_volume, 1e-5 * whole);
+  EXPECT_NEAR(volume({stl, {Sphere{{0, 0.3, 0}, 0.1}, Sphere{{0, 0.3, 0}, 0.05}}}, all, 3), whole - ball_volume, 1e-5 * whole);
+  const Primitive moved = placed(stl, {Vec3(0, 0, 30), {}, Vec3(1, 0, 0)}, 3);
+  EXPECT_NEAR(volume({moved, {}}, all, 3), whole, 1e-12 * whole);
+}
+
+/// An ellipsoid with a bore along one of its axes: the bore's share is that of a cylinder and two caps, in closed form for a ball.
+TEST(MassProperties, OfADifferenceByOneSum) {
+  const double R = 0.1, a = 0.04, long_ = std::sqrt(R * R - a * a);  // a napkin ring
+  const Difference ring{
+      {Sphere{{0.02, 0, 0}, R}, Cylinder{.axis = 2, .center = {0.02, 0, 0}, .radius = a, .low = -1, .high = 1}}};
+  const MassProperties m = mass_properties(ring, 3);
+  const double ring_volume = 4.0 / 3.0 * std::numbers::pi * long_ * long_ * long_;
+  EXPECT_NEAR(m.volume, ring_volume, 1e-5 * ring_volume);
+  EXPECT_LT((m.centroid - Vec3(0.02, 0, 0)).norm(), 1e-5 * R);
+  // About its axis: integral of 2 pi r^3 2 sqrt(R^2 - r^2) dr from a to R = 4 pi (R^2 l^3/3 - l^5/5).
+  const double about_axis = 4 * std::numbers::pi * (R * R * std::pow(long_, 3) / 3 - std::pow(long_, 5) / 5);
+  EXPECT_NEAR(m.inertia(2, 2), about_axis, 3e-4 * about_axis);
 }
 
 std::string mistake(const std::string& text, double scale = 1) {

@@ -32,7 +32,7 @@ materials::MieGruneisenWater::Parameters aluminium() {
 std::vector<Named> laws() {
   std::vector<Named> all;
   for (const char* name : {"water-tait", "water-tait-isentropic", "sjogreen-gas", "sjogreen-gas-gamma2", "bubble-gas", "air",
-                           "water-steinberg", "water-paper-mg", "petn"}) {
+                           "water-steinberg", "water-paper-mg", "water-polynomial", "petn"}) {
     const auto fluid = materials::find_fluid(name);
     if (!fluid) throw std::invalid_argument(std::string("no such fluid: ") + name);
     const double energy = std::holds_alternative<materials::Jwl>(fluid->law)

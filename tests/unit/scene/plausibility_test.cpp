@@ -79,6 +79,39 @@ TEST(Plausibility, ContradictorySetsAreToldTheirOwnState) {
   refused(with(charge, "p_cj = 21e9", "p_cj = 12e9"), "p_cj = 1.2e+10 [Pa] and the rest of the set contradict each other");
 }
 
+/// A set that is published by its isentrope, and one without D and p_cj, are completed as the library's are.
+TEST(Plausibility, ExplosivesAreCompletedFromTheirOwnState) {
+  const auto bulk = [](const std::string& material) {
+    return std::get<materials::Jwl>(
+               read_text(with(coupled_tube, "material = \"petn\"", "material = " + material)).fluid.bodies.front().material.law)
+        .parameters();
+  };
+  const materials::Jwl::Parameters own = bulk(with(tnt, ", D = 6930, p_cj = 21e9", ""));
+  EXPECT_NEAR(own.D, 6929, 2);
+  EXPECT_NEAR(own.p_cj, 21e9, 0.02e9);
+  EXPECT_EQ(bulk(with(tnt, ", p_cj = 21e9", "")).D, 6930);
+  const std::string published =
+      R"({law = "jwl", rho0 = 1844, A = 773.037e9, B = 21.629e9, R1 = 4.5, R2 = 1.5, omega = 0.33, C = 1.339e9})";
+  const materials::Jwl::Parameters pbx = bulk(published);
+  EXPECT_NEAR(pbx.E0 * pbx.rho0, 10.6e9, 0.01e9);  // as listed
+  const materials::ChapmanJouguet state = chapman_jouguet(materials::Jwl(pbx));
+  const double volume = pbx.rho0 / state.density;  // the isentrope through that state is the published one
+  EXPECT_NEAR(state.pressure,
+              pbx.A * std::exp(-pbx.R1 * volume) + pbx.B * std::exp(-pbx.R2 * volume) + 1.339e9 * std::pow(volume, -1.33),
+              1e-6 * state.pressure);
+  refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, "C = ", "E0 = 5e6, C = ")),
+          "C stands in place of E0; leave out one of them");
+  refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, ", C = 1.339e9", "")),
+          "needs E0, the detonation energy per mass, or C of its isentrope in its place");
+  refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, "C = 1.339e9", "C = 1.339e13")), "material");
+}
+
+TEST(Plausibility, SetsThatAreNotToBeReliedOnAreSaid) {
+  warned(with(coupled_tube, "material = \"petn\"", "material = \"c-4\""), "'c-4' is unverified: its source lists another");
+  warned(with(coupled_tube, "material = \"water-tait\"", "material = \"water-paper-mg\""), "'water-paper-mg' is of grade D");
+  warned(with(coupled_tube, "material = \"al-5083-h116\"", "material = {base = \"al-5086-o\"}"), "'al-5086-o' is of grade D");
+}
+
 TEST(Plausibility, FrontsOfAnotherSpeedAreSaid) {
   const auto at = [](const std::string& speed) {
     return with(coupled_tube, "material = \"petn\"\n", "material = \"petn\"\nburn = {speed = " + speed + "}\n");

@@ -94,9 +94,11 @@ TEST(Shapes, MistakesHaveRemedies) {
       {obstacle + "{type = \"half_space\", normal = [1, 0, 0]}\n", "obstacles.o.shape.type must be one of box, sphere"},
       {obstacle + "{type = \"difference\", shapes = [{type = \"half_space\", normal = [1, 0, 0]}, " + sphere + "]}\n",
        "obstacles.o.shape has no end"},
-      {wall + "{type = \"union\", shapes = [" + sphere + "]}\n", "must be one of box, sphere, cylinder, cone"},
-      {wall + "{type = \"box\", low = [0, 0, 0], high = [0.4, 0.4, 0.4], rotate = [0, 0, 45]}\n",
-       "walls.w.shape.rotate: walls are not turned or moved; they are box, sphere, cylinder, cone"},
+      {wall + "{type = \"half_space\", normal = [1, 0, 0]}\n", "walls.w.shape.type must be one of box, sphere"},
+      {wall + "{type = \"box\", low = [0, 0, 0], high = [0.4, 0.4, 0.4], rotate = [0, 0, 45]}\ncondition = \"no_slip\"\n",
+       "walls.w.condition: only a box, cylinder, cone or sphere along the axes has another condition"},
+      {wall + "{type = \"union\", shapes = [" + sphere + "]}\nfaces = {side = \"open\"}\n",
+       "walls.w.faces: only a box, cylinder, cone or sphere along the axes has faces; leave it out"},
   };
   for (const auto& [text, expected] : all) {
     SCOPED_TRACE(text);
