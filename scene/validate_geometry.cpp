@@ -64,13 +64,14 @@ void Validator::overlaps() {
                  later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
                      " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
     }
-    if (!solid_ || dimension_ != 3) continue;
-    const Depth in_structure = [&](const Vec3& x) { return -solid_->signed_distance(x); };
-    const Bounds window = common(extent, solid_->extent());
-    if (const auto at = find_in_both(in_structure, inside(*later.shape, 3), window, tolerance(), 3))
-      complain(*later.node, "shape",
-               later.path() + " overlaps the structure, e.g. at " + text(*at, 3) +
-                   " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");
+    for (const Structure& structure : structures_) {
+      if (!structure.shape || dimension_ != 3) continue;
+      const Bounds window = common(extent, structure.shape->extent());
+      if (const auto at = find_in_both(structure.depth(), inside(*later.shape, 3), window, tolerance(), 3))
+        complain(*later.node, "shape",
+                 later.path() + " overlaps " + structure.named() + ", e.g. at " + text(*at, 3) +
+                     " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");
+    }
   }
 }
 
