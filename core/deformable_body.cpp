@@ -8,6 +8,23 @@ void scatter_to_carriers(const BodyPoint& point, const Vec3& given, std::vector<
   for (const auto& [carrier, weight, image] : point.motion) to[carrier] += weight * mirrored(given, image);
 }
 
+BodyLedger& BodyLedger::operator+=(const BodyLedger& other) {
+  kinetic += other.kinetic;
+  elastic += other.elastic;
+  plastic += other.plastic;
+  viscous += other.viscous;
+  impact += other.impact;
+  received += other.received;
+  external += other.external;
+  gravity += other.gravity;
+  integrator += other.integrator;
+  mass += other.mass;
+  momentum += other.momentum;
+  impulse += other.impulse;
+  angular_momentum += other.angular_momentum;
+  return *this;
+}
+
 std::function<Vec3()> DeformableBody::follow_surface(const Vec3& reference_position, double reach) const {
   const WetSurface& surface = wet_surface();
   if (surface.faces.empty()) return {};

@@ -36,6 +36,8 @@ struct BodyLedger {
   Vec3 impulse = Vec3::Zero();           ///< of prescribed loads and rigid planes [N s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m^2/s]
 
+  BodyLedger& operator+=(const BodyLedger& other);
+
   /// Stays at its first value, but for what finite strain within a step leaves.
   double balance() const { return kinetic + integrator + elastic + plastic + viscous + impact - received - external - gravity; }
 };
@@ -72,9 +74,10 @@ struct BodySnapshot {
   std::vector<Field> of_points, of_cells;
 };
 
-class DeformableBody {
+/// What moves under impulses on its wet surface: one body, or several as one (coupling/body_group.hpp).
+class WetBody {
  public:
-  virtual ~DeformableBody() = default;
+  virtual ~WetBody() = default;
 
   virtual double time() const = 0;  ///< [s]
   virtual long steps() const = 0;
@@ -95,6 +98,16 @@ class DeformableBody {
   /// Mass [kg] that the water must move to move each of them, at the start.
   virtual std::span<const double> wet_masses() const = 0;
 
+  virtual BodyLedger ledger() const = 0;
+
+ protected:
+  WetBody() = default;
+  WetBody(WetBody&&) = default;
+  WetBody& operator=(WetBody&&) = default;
+};
+
+class DeformableBody : public WetBody {
+ public:
   /// The material point at a place [m] of the start (the nearest to it), and what it is now.
   virtual BodyPoint locate(const Vec3& reference_position) const = 0;
   virtual MaterialPoint read(const BodyPoint& point) const = 0;
@@ -105,7 +118,6 @@ class DeformableBody {
   /// What the next step goes on from, and what others read until then.
   virtual void visit_state(StateVisitor& state) = 0;
 
-  virtual BodyLedger ledger() const = 0;
   virtual std::span<const Vec3> positions() const = 0;     ///< of nodes or particles [m]
   virtual std::span<const double> masses() const = 0;      ///< of the same [kg]
   virtual double maximum_pressure() const { return 0.0; }  ///< of particles [Pa]
@@ -117,11 +129,6 @@ class DeformableBody {
   virtual std::string description() const = 0;
   virtual std::size_t memory_bytes() const = 0;
   virtual const PassTimers& timers() const = 0;
-
- protected:
-  DeformableBody() = default;
-  DeformableBody(DeformableBody&&) = default;
-  DeformableBody& operator=(DeformableBody&&) = default;
 };
 
 }  // namespace undex

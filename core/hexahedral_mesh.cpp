@@ -146,6 +146,19 @@ Bounds bounds(const HexahedralMesh& mesh) {
   return box;
 }
 
+std::vector<HexahedralMesh::Face> outer_faces(const HexahedralMesh& mesh) {
+  const auto cells = cells_of_faces(mesh);
+  std::vector<HexahedralMesh::Face> outer;
+  for (const auto& cell : mesh.cells)
+    for (const auto& face : hexahedron_faces) {
+      const std::array<int, 4> round{cell[face[0]], cell[face[1]], cell[face[2]], cell[face[3]]};
+      std::array<int, 4> key = round;
+      std::sort(key.begin(), key.end());
+      if (cells.at(key).size() == 1) outer.push_back({round, 0});
+    }
+  return outer;
+}
+
 std::vector<int> pieces(const HexahedralMesh& mesh, JoinedBy by) {
   std::vector<int> parent(mesh.cells.size());
   std::iota(parent.begin(), parent.end(), 0);

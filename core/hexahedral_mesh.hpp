@@ -37,6 +37,9 @@ std::array<double, 8> corner_volumes(const std::vector<Vec3>& nodes, const std::
 
 Bounds bounds(const HexahedralMesh& mesh);
 
+/// The faces that one cell alone has, without a group.
+std::vector<HexahedralMesh::Face> outer_faces(const HexahedralMesh& mesh);
+
 /// Which piece each cell belongs to, numbered from 0; cells of one piece are joined by faces, or by nodes.
 enum class JoinedBy { faces, nodes };
 std::vector<int> pieces(const HexahedralMesh& mesh, JoinedBy by);

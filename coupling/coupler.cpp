@@ -9,7 +9,7 @@
 
 namespace undex::coupling {
 
-sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure) {
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const WetBody& structure) {
   const WetSurface& surface = structure.wet_surface();
   const std::vector<double> area = nodal_areas(surface.faces, surface.nodes, fluid.axisymmetric);
   const auto mass = structure.wet_masses();
@@ -30,7 +30,7 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody
   return limit;
 }
 
-Coupler::Coupler(Flow& flow, DeformableBody& structure, const Settings& settings)
+Coupler::Coupler(Flow& flow, WetBody& structure, const Settings& settings)
     : flow_(flow),
       fluid_(flow.fluid()),
       structure_(structure),

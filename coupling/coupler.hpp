@@ -23,13 +23,13 @@ namespace undex::coupling {
 /// Wall and first layer of particles oscillate against each other; where the wall is the lighter one, by its mass on the layer's
 /// stiffness, rho c^2/dx per area: omega = c sqrt(rho/(m dx)), within a factor of order one, and `share` is omega times the
 /// window. `criterion` is "added mass", `position` the node's; the step is infinite where there is no liquid.
-sph::StepLimit added_mass_limit(const sph::Settings& fluid, const DeformableBody& structure);
+sph::StepLimit added_mass_limit(const sph::Settings& fluid, const WetBody& structure);
 
 class Coupler {
  public:
   /// Shows the fluid the structure's wet surface: as a mirror wall where it slips along it and its scheme mirrors, else as one
   /// lined with dummy particles. Both must outlive the coupler.
-  Coupler(Flow& flow, DeformableBody& structure, const Settings& settings);
+  Coupler(Flow& flow, WetBody& structure, const Settings& settings);
 
   struct Window {
     double step = 0;                 ///< last fluid step [s]
@@ -55,7 +55,7 @@ class Coupler {
 
   Flow& flow_;
   sph::Fluid& fluid_;
-  DeformableBody& structure_;
+  WetBody& structure_;
   Settings settings_;
   WetWall wall_;
   WallIndex wall_index_;

@@ -63,7 +63,10 @@ struct Settings {
 };
 template <class Visit>
 void describe(Settings& structure, Visit&& visit) {
-  visit(structure.name, {.name = "name", .form = Form::name, .meaning = "in messages"});
+  visit(structure.name, {.name = "name",
+                         .rule = "\"structure\"; of one of several its number, from 0",
+                         .form = Form::name,
+                         .meaning = "in messages; of one of several in results too"});
   visit(ByHand{}, {.name = "shape",
                    .needed = true,
                    .remedy = "e.g. shape = {type = \"tube\", inner_radius = 0.04, outer_radius = 0.05, low = -0.1, high = 0.1}",

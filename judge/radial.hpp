@@ -14,6 +14,7 @@ struct Axis {
   Vec3 center = Vec3::Zero();
   /// Unit vector away from the axis at a point; zero on the axis.
   Vec3 outward(const Vec3& point) const;
+  bool operator==(const Axis&) const = default;
 };
 
 /// The sum of the components (x, y, z; empty where a plane scene has none) times those of `outward`, as long as the shortest.

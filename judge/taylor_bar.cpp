@@ -15,8 +15,9 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 
 void check(const scene::TableReader& table, const scene::Scene& scene) {
   const auto& solids = scene.solids.bodies;
-  const bool rod = scene.structure ? std::holds_alternative<fem::RodMesh>(scene.structure->mesh)
-                                   : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
+  const fem::Settings* structure = scene.only_structure();
+  const bool rod = structure ? std::holds_alternative<fem::RodMesh>(structure->mesh)
+                             : !solids.empty() && std::holds_alternative<Cylinder>(solids[0].shape.base);
   if (!rod)
     table.complain("kind",
                    "comparison.kind = \"taylor_bar\" compares the shape of a [structure] of type \"rod\", or of the first "
@@ -27,8 +28,8 @@ std::vector<std::string> last_fields(const scene::Scene&) { return {"body.positi
 
 Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   const std::vector<Vec3> points = evidence.field(last_fields(scene)[0]).vectors();
-  if (scene.structure) {
-    const auto& rod = std::get<fem::RodMesh>(scene.structure->mesh);
+  if (const fem::Settings* structure = scene.only_structure()) {
+    const auto& rod = std::get<fem::RodMesh>(structure->mesh);
     return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low)};
   }
   const solid::Body& body = scene.solids.bodies.front();

@@ -36,12 +36,13 @@ struct Plate {
 
 /// A plate; or a disc whose axis is that of the wave.
 std::optional<Plate> plate_of(const scene::Scene& scene) {
-  if (!scene.structure) return std::nullopt;
+  const fem::Settings* structure = scene.only_structure();
+  if (!structure) return std::nullopt;
   const int axis = scene.start.wave.axis;
   const std::string letter(1, "xyz"[axis]);
-  if (const auto* plate = std::get_if<fem::PlateMesh>(&scene.structure->mesh))
+  if (const auto* plate = std::get_if<fem::PlateMesh>(&structure->mesh))
     return Plate{plate->low[axis], plate->high[axis], letter + "_low", letter + "_high"};
-  if (const auto* disc = std::get_if<fem::RodMesh>(&scene.structure->mesh); disc && disc->axis == axis)
+  if (const auto* disc = std::get_if<fem::RodMesh>(&structure->mesh); disc && disc->axis == axis)
     return Plate{disc->low, disc->high, "low", "high"};
   return std::nullopt;
 }
@@ -79,7 +80,7 @@ bool is_closed(const scene::Scene& scene, int axis, bool low, double place) {
 output::Series load_on(const scene::Scene& scene, const std::string& face) {
   output::Series sum;
   std::vector<output::Series> loads;
-  for (const fem::PressureLoad& load : scene.structure->loads) {
+  for (const fem::PressureLoad& load : scene.only_structure()->loads) {
     if (load.face != face) continue;
     loads.push_back({load.time, load.pressure});
     sum.t.insert(sum.t.end(), load.time.begin(), load.time.end());
@@ -103,7 +104,7 @@ Line line_of(const scene::Scene& scene) {
   return {.way = way,
           .length = way * (face - far_end),
           .front = way * (wave.front - face),
-          .plate_mass = scene.structure->material.rho0 * (plate.high - plate.low),
+          .plate_mass = scene.only_structure()->material.rho0 * (plate.high - plate.low),
           .gravity = way * scene.fluid.gravity[wave.axis],
           .around = scene.fluid.surroundings.pressure,
           .load = load_on(scene, plate.back(wave.upward)),
@@ -151,15 +152,15 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
         "kind",
         "comparison.kind = \"taylor_plate\" needs start.kind = \"plane_wave\" and a [structure] of type \"plate\", or of "
         "type \"rod\" along the wave: a disc");
-  else if (scene.structure->wet_faces != std::vector<std::string>{face})
-    table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face +
-                               "'; write structure.wet = [\"" + face + "\"]");
+  else if (scene.only_structure()->wet_faces != std::vector<std::string>{face})
+    table.complain("kind", "comparison.kind = \"taylor_plate\": the wave runs onto the plate's face '" + face + "'; write " +
+                               scene.path_of(*scene.only_structure()) + ".wet = [\"" + face + "\"]");
   Vec3 across = scene.fluid.gravity;
   across[wave.axis] = 0;
   if (!across.isZero())
     table.complain("kind", "comparison.kind = \"taylor_plate\": gravity must act along the wave's way, start.axis");
-  if (plate && scene.structure)
-    for (const fem::PressureLoad& load : scene.structure->loads)
+  if (plate)
+    for (const fem::PressureLoad& load : scene.only_structure()->loads)
       if (load.face != plate->back(wave.upward))
         table.complain("kind", "comparison.kind = \"taylor_plate\": the load on the plate's face '" + load.face +
                                    "' is not in the one-dimensional solution, which knows those on '" + plate->back(wave.upward) +

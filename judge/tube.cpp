@@ -59,20 +59,22 @@ void add_pressure(NamedNumbers& out, const Series& p) {
   out.emplace_back("closure_s", std::isnan(cavitation) ? nan : first_rise(p, cavitated, cavitation, forever));
 }
 
-/// The tube that a probe lies on: the structure, or the nearest solid of such a shape.
-std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
-  if (scene.structure)
-    if (const auto* t = std::get_if<fem::TubeMesh>(&scene.structure->mesh))
+/// The tube that a probe lies on: the structure that it names, or the only one; or the nearest solid of such a shape.
+std::optional<TubeShape> tube_at(const scene::Scene& scene, const scene::Probe& probe) {
+  for (const fem::Settings& structure : scene.structures) {
+    if (probe.structure && *probe.structure != structure.name) continue;
+    if (const auto* t = std::get_if<fem::TubeMesh>(&structure.mesh))
       return TubeShape{.axis = t->axis,
                        .center = t->center,
                        .inner = t->inner_radius,
                        .outer = t->outer_radius,
                        .low = t->low,
                        .high = t->high};
+  }
   std::optional<TubeShape> nearest;
   double least = 1e300;
   for (const solid::Body& solid : scene.solids.bodies) {
-    const double away = signed_distance(solid.shape, point, scene.fluid.dimension);
+    const double away = signed_distance(solid.shape, probe.point, scene.fluid.dimension);
     if (const auto* t = std::get_if<TubeShape>(&solid.shape.base); t && away < least) {
       least = away;
       nearest = *t;
@@ -84,7 +86,7 @@ std::optional<TubeShape> tube_at(const scene::Scene& scene, const Vec3& point) {
 /// The component of a vector history along the outward radius at the probe.
 Series radial_at(const scene::Scene& scene, const output::Evidence& evidence, const scene::Probe& probe,
                  const std::string& quantity) {
-  const std::optional<TubeShape> tube = tube_at(scene, probe.point);
+  const std::optional<TubeShape> tube = tube_at(scene, probe);
   const Axis axis = tube ? Axis{.direction = tube->axis, .center = tube->center} : Axis{};
   const auto component = [&](const char* end) { return evidence.series(probe.name, quantity + end); };
   return radial({component("_x"), component("_y"), component("_z")}, axis.outward(probe.point));

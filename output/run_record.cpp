@@ -29,6 +29,22 @@ void put_metrics(nlohmann::ordered_json& json, const NamedNumbers& metrics, cons
   for (const auto& [name, reason] : missing) json["missing"][name] = reason;
 }
 
+nlohmann::ordered_json object(const StructureRecord& structure) {
+  nlohmann::ordered_json json;
+  json["name"] = structure.name;
+  json["cells"] = structure.cells;
+  json["steps"] = structure.steps;
+  json["kinetic_j"] = structure.kinetic;
+  json["elastic_j"] = structure.elastic;
+  json["plastic_j"] = structure.plastic;
+  json["viscous_j"] = structure.viscous;
+  json["interface_work_received_j"] = structure.received;
+  json["external_j"] = structure.external;
+  json["energy_error"] = structure.energy_error;
+  json["impulse_n_s"] = structure.impulse;
+  return json;
+}
+
 nlohmann::ordered_json object(const ObstacleRecord& obstacle) {
   nlohmann::ordered_json json;
   json["name"] = obstacle.name;
@@ -75,6 +91,22 @@ std::vector<double> list(const nlohmann::ordered_json& json, const char* key) {
   if (const auto found = json.find(key); found != json.end() && found->is_array())
     for (const auto& value : *found) values.push_back(value.is_number() ? value.get<double>() : nan);
   return values;
+}
+
+StructureRecord structure(const nlohmann::ordered_json& json) {
+  StructureRecord structure;
+  structure.name = text(json, "name");
+  get(json, "cells", structure.cells);
+  get(json, "steps", structure.steps);
+  get(json, "kinetic_j", structure.kinetic);
+  get(json, "elastic_j", structure.elastic);
+  get(json, "plastic_j", structure.plastic);
+  get(json, "viscous_j", structure.viscous);
+  get(json, "interface_work_received_j", structure.received);
+  get(json, "external_j", structure.external);
+  get(json, "energy_error", structure.energy_error);
+  structure.impulse = list(json, "impulse_n_s");
+  return structure;
 }
 
 ObstacleRecord obstacle(const nlohmann::ordered_json& json) {
@@ -134,6 +166,7 @@ std::string to_json(const RunRecord& record) {
   json["energy_error"] = record.energy_error;
   if (record.interface_energy_error) json["interface_energy_error"] = *record.interface_energy_error;
   if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;
+  for (const StructureRecord& structure : record.structures) json["structures"].push_back(object(structure));
   for (const ObstacleRecord& obstacle : record.obstacles) json["obstacles"].push_back(object(obstacle));
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
@@ -184,6 +217,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
   };
   optional("interface_energy_error", record.interface_energy_error);
   optional("interface_impulse_error", record.interface_impulse_error);
+  if (const auto found = json.find("structures"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_object()) record.structures.push_back(structure(each));
   if (const auto found = json.find("obstacles"); found != json.end() && found->is_array())
     for (const auto& each : *found)
       if (each.is_object()) record.obstacles.push_back(obstacle(each));

@@ -29,6 +29,16 @@ struct ObstacleRecord {
   std::vector<double> impulse;                 ///< by the water since the start [N s]
 };
 
+/// What one of several structures has at the end: energies of the whole body [J].
+struct StructureRecord {
+  std::string name;
+  std::int64_t cells = 0, steps = 0;
+  double kinetic = 0, elastic = 0, plastic = 0, viscous = 0;
+  double received = 0, external = 0;  ///< work of the water, of loads
+  double energy_error = 0;            ///< relative
+  std::vector<double> impulse;        ///< by the water since the start, of the computed part [N s]
+};
+
 struct RunRecord {
   std::string scene;    ///< its name
   std::string status;   ///< "done", or why it ended: "stopped", "interrupted", ...
@@ -49,9 +59,10 @@ struct RunRecord {
   std::optional<double> angular_momentum_error;                 ///< relative; closed scenes of solids in particles only
   std::optional<double> interface_energy_error;                 ///< coupled runs only
   std::optional<double> interface_impulse_error;                ///< the same
-  std::vector<std::string> warnings;      ///< what of the scene computes badly, one sentence each; left out when empty
-  std::string program;                    ///< version text; left out when empty
-  std::vector<ObstacleRecord> obstacles;  ///< left out when empty
+  std::vector<std::string> warnings;        ///< what of the scene computes badly, one sentence each; left out when empty
+  std::string program;                      ///< version text; left out when empty
+  std::vector<StructureRecord> structures;  ///< of several; left out when empty
+  std::vector<ObstacleRecord> obstacles;    ///< left out when empty
   std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
   NamedNumbers passes;                                       ///< seconds per named pass
   NamedNumbers metrics;                                      ///< results of the scene's comparison

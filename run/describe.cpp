@@ -76,7 +76,7 @@ std::string temperature_notes(const scene::Scene& scene) {
           "shocks and compression\n",
           name.c_str(), solid.name.c_str());
   };
-  if (scene.structure) note(scene.structure->name, scene.structure->material);
+  for (const fem::Settings& structure : scene.structures) note(structure.name, structure.material);
   for (const solid::Body& body : scene.solids.bodies) note(body.name, body.material);
   return text;
 }

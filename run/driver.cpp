@@ -20,8 +20,7 @@ Step WaterAlone::advance(double end) {
 }
 
 Step BodyAlone::advance(double end) {
-  const Step step{std::min(body_.stable_step(), end - body_.time()),
-                  body_.size().cells > 0 ? "element" : body_.stable_step_owner()};
+  const Step step{std::min(body_.stable_step(), end - body_.time()), of_particles_ ? body_.stable_step_owner() : "element"};
   body_.advance(body_.time() + step.size);
   return step;
 }

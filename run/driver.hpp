@@ -38,16 +38,18 @@ class WaterAlone : public Driver {
 
 class BodyAlone : public Driver {
  public:
-  explicit BodyAlone(DeformableBody& body) : body_(body) {}
+  /// `of_particles`: a particle sets the step, and is named.
+  BodyAlone(WetBody& body, bool of_particles) : body_(body), of_particles_(of_particles) {}
   Step advance(double end) override;
 
  private:
-  DeformableBody& body_;
+  WetBody& body_;
+  bool of_particles_;
 };
 
 class Coupled : public Driver {
  public:
-  Coupled(coupling::Flow& flow, DeformableBody& body, const coupling::Settings& settings) : coupler_(flow, body, settings) {}
+  Coupled(coupling::Flow& flow, WetBody& body, const coupling::Settings& settings) : coupler_(flow, body, settings) {}
   Step advance(double end) override;
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
   PassTimers timers() const override { return coupler_.timers(); }

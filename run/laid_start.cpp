@@ -74,7 +74,7 @@ bool take_start(const std::filesystem::path& folder, scene::Scene& scene) {
   }
   scene.fluid.start_time = start.time;
   scene.fluid.heat_before = start.heat;
-  if (scene.structure) scene.structure->start_time = start.time;
+  for (fem::Settings& structure : scene.structures) structure.start_time = start.time;
   return true;
 }
 

@@ -6,7 +6,17 @@
 namespace undex::run {
 namespace {
 
-std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool obstacles, bool radiating) {
+/// Of each of several structures, beside the sums of all.
+std::vector<output::Column> columns_of(const std::string& structure, bool gravity) {
+  std::vector<output::Column> all;
+  for (const char* name : {"structure_kinetic", "structure_elastic", "structure_plastic", "structure_viscous",
+                           "interface_work_received", "external", "gravity"})
+    if (gravity || name != std::string("gravity")) all.push_back({name + ("." + structure), "J"});
+  return all;
+}
+
+std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool obstacles, bool radiating,
+                                           const std::vector<fem::Settings>& structures) {
   std::vector<output::Column> all{{"time", "s"}};
   for (const char* name : {"kinetic", "internal", "dissipated", "structure_kinetic", "structure_elastic", "structure_plastic",
                            "structure_viscous", "interface_work_given", "interface_work_received", "external"})
@@ -17,6 +27,8 @@ std::vector<output::Column> energy_columns(bool gravity, bool surroundings, bool
   if (radiating) all.push_back({"radiated", "J"});
   all.push_back({"total", "J"});
   all.push_back({"error", ""});
+  for (std::size_t k = 0; structures.size() > 1 && k < structures.size(); ++k)
+    for (const output::Column& column : columns_of(structures[k].name, gravity)) all.push_back(column);
   return all;
 }
 
@@ -48,7 +60,7 @@ EnergyHistory::EnergyHistory(const std::filesystem::path& folder, const scene::S
       radiating_(
           std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(), [](const sph::Wall& wall) { return wall.radiates(); })),
       path_(folder / "energy.csv"),
-      samples_(energy_columns(gravity_, surroundings_, obstacles_, radiating_)) {
+      samples_(energy_columns(gravity_, surroundings_, obstacles_, radiating_, scene.structures)) {
   if (!goes_on) history_.emplace(path_, samples_.columns);
 }
 
@@ -66,6 +78,10 @@ void EnergyHistory::sample(const Simulation& simulation) {
   if (obstacles_) row.push_back(e.obstacle_kinetic);
   if (radiating_) row.push_back(e.radiated);
   row.insert(row.end(), {e.total(), e.error()});
+  for (const StructureAccount& each : simulation.accounts()) {
+    row.insert(row.end(), {each.kinetic, each.elastic, each.plastic, each.viscous, each.received, each.external});
+    if (gravity_) row.push_back(each.gravity);
+  }
   history_->append(row);
   samples_.append(row);
 }

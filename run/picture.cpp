@@ -75,16 +75,19 @@ class Drawing {
         clouds_[std::size_t(body[i])].places.push_back({place[3 * i], place[3 * i + 1], place[3 * i + 2]});
       (void)fluid;
     }
-    std::size_t solid = 0;
-    for (const auto& one : simulation_.bodies()) {
-      const bool particles = solid < scene_.solids.bodies.size() && !scene_.structure;
-      Cloud cloud{particles ? "solids" : "structure", {}, scene_.fluid.lattice.spacing};
+    for (std::size_t k = 0; k < simulation_.bodies().size(); ++k) {
+      const auto& one = simulation_.bodies()[k];
+      const bool particles = one->size().particles > 0;
+      Cloud cloud{particles                  ? "solids"
+                  : scene_.structures_listed ? scene_.structures[k].name
+                                             : "structure",
+                  {},
+                  scene_.fluid.lattice.spacing};
       for (const Vec3& x : one->positions()) cloud.places.push_back(x);
       if (cloud.spacing <= 0 || particles)
         for (const solid::Body& body : scene_.solids.bodies)
           if (body.spacing) cloud.spacing = std::max(cloud.spacing, *body.spacing);
       clouds_.push_back(std::move(cloud));
-      ++solid;
     }
     for (const Cloud& cloud : clouds_)
       for (const Vec3& x : cloud.places) all.include(x);

@@ -20,14 +20,15 @@ Read reader(std::vector<PointQuantity<Point>> quantities, int dimension, std::fu
   };
 }
 
-/// The material point nearest to x at the start, of whichever body.
-std::function<MaterialPoint()> material_point(const Simulation& simulation, const Vec3& x) {
+/// The material point nearest to x at the start, of whichever body, or of the structure of that number.
+std::function<MaterialPoint()> material_point(const Simulation& simulation, const Vec3& x, std::optional<std::size_t> of) {
   if (simulation.line()) return simulation.line()->in_solid(x);
   const DeformableBody* owner = nullptr;
   BodyPoint nearest;
-  for (const auto& body : simulation.bodies())
-    if (BodyPoint point = body->locate(x); !owner || point.distance < nearest.distance) {
-      owner = body.get();
+  const auto& bodies = simulation.bodies();
+  for (std::size_t k = of.value_or(0); k < (of ? *of + 1 : bodies.size()); ++k)
+    if (BodyPoint point = bodies[k]->locate(x); !owner || point.distance < nearest.distance) {
+      owner = bodies[k].get();
       nearest = std::move(point);
     }
   return [=] { return owner->read(nearest); };
@@ -35,8 +36,11 @@ std::function<MaterialPoint()> material_point(const Simulation& simulation, cons
 
 /// Where the fluid is read: at x, or where a body's surface near it takes it. A probe farther from bodies is one of a rigid wall.
 std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x, double reach) {
+  std::function<Vec3()> nearest;
   for (const auto& body : simulation.bodies())
-    if (auto place = body->follow_surface(x, reach)) return place;
+    if (auto place = body->follow_surface(x, reach); place && (!nearest || (place() - x).norm() < (nearest() - x).norm()))
+      nearest = std::move(place);
+  if (nearest) return nearest;
   return [x] { return x; };
 }
 
@@ -56,6 +60,13 @@ template <class Point>
 std::function<Point()> in_space(std::function<Point()> point, const std::optional<Meridian>& meridian, const Vec3& x) {
   if (!meridian) return point;
   return [=, line = *meridian, outward = meridian->outward_at(x)] { return in_space(point(), line, outward); };
+}
+
+/// The number of the structure that a probe names.
+std::optional<std::size_t> named_by(const scene::Probe& probe, const std::vector<fem::Settings>& structures) {
+  for (std::size_t k = 0; k < structures.size(); ++k)
+    if (probe.structure && *probe.structure == structures[k].name) return k;
+  return std::nullopt;
 }
 
 /// The fluid at x, or on the wall or body near it.
@@ -100,7 +111,7 @@ void append_state(const coupling::ObstacleState& state, int dimension, std::vect
 }  // namespace
 
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
-  const int dimension = scene.structure ? 3 : scene.fluid.dimension;
+  const int dimension = !scene.structures.empty() ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty() || !scene.obstacles.empty()) std::filesystem::create_directories(folder / "history");
   const std::optional<Meridian>& meridian = simulation.meridian();
   for (const scene::Probe& probe : scene.probes) {
@@ -110,7 +121,9 @@ Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const st
     if (probe.kind == scene::Probe::Kind::structure) {
       const auto quantities = chosen(material_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);
-      read = reader<MaterialPoint>(quantities, dimension, in_space(material_point(simulation, x), meridian, probe.point));
+      read = reader<MaterialPoint>(
+          quantities, dimension,
+          in_space(material_point(simulation, x, named_by(probe, scene.structures)), meridian, probe.point));
     } else {
       const auto quantities = chosen(fluid_quantities, probe.quantities);
       add_columns(quantities, dimension, columns);

@@ -65,6 +65,18 @@ output::RunRecord record_of(const scene::Scene& scene, const Simulation& simulat
   if (const sph::Fluid* fluid = simulation.fluid()) add(*fluid, record);
   if (const LineFlow* line = simulation.line()) add(*line, record);
   for (const auto& body : simulation.bodies()) add(*body, record);
+  for (const StructureAccount& each : simulation.accounts())
+    record.structures.push_back({.name = each.name,
+                                 .cells = std::int64_t(each.cells),
+                                 .steps = each.steps,
+                                 .kinetic = each.kinetic,
+                                 .elastic = each.elastic,
+                                 .plastic = each.plastic,
+                                 .viscous = each.viscous,
+                                 .received = each.received,
+                                 .external = each.external,
+                                 .energy_error = each.error,
+                                 .impulse = {each.impulse.begin(), each.impulse.end()}});
   for (std::size_t k = 0; k < simulation.obstacles().size(); ++k)
     record.obstacles.push_back(record_of(simulation.obstacles()[k].given(), simulation.obstacle_state(k), scene.fluid.dimension));
   record.peak_memory_bytes = output::peak_memory_bytes();

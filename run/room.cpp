@@ -138,7 +138,7 @@ Room room_of(const scene::Scene& given) {
     room.bytes += particles * (body.description == solid::Description::total_lagrangian ? bytes_of_lagrangian[fluid.dimension]
                                                                                         : bytes_of_updated);
   }
-  if (scene.structure) room.cells = cells_of(*scene.structure);
+  for (const fem::Settings& structure : scene.structures) room.cells += cells_of(structure);
   room.bytes += bytes_of_particle * room.particles + bytes_of_wall_particle * room.wall_particles + bytes_of_cell * room.cells;
   return room;
 }
@@ -167,8 +167,13 @@ std::string expect_room(const scene::Scene& scene) {
                   room.solid_particles, room.wall_particles, room.cells, gigabytes(room.bytes).c_str());
   const std::string words = text + std::string("; this machine has ") + gigabytes(limit);
   if (room.bytes <= limit) return words;
-  if (bytes_of_cell * room.cells > 0.5 * room.bytes)
-    throw SceneError(scene.file.string(), {scene.places.finding("structure.cells", words + "; take fewer or larger cells")});
+  if (bytes_of_cell * room.cells > 0.5 * room.bytes) {
+    const std::vector<fem::Settings> all = scene::for_solvers(scene).structures;
+    const auto largest =
+        std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return cells_of(a) < cells_of(b); });
+    throw SceneError(scene.file.string(),
+                     {scene.places.finding(scene.path_of(*largest) + ".cells", words + "; take fewer or larger cells")});
+  }
   const double larger =
       scene.fluid.lattice.spacing * std::pow(room.bytes / limit, 1.0 / (scene.meridian ? 2 : scene.fluid.dimension));
   std::snprintf(text, sizeof text, "; take a spacing of %.2g m or more, symmetry planes, or smaller bodies", larger);

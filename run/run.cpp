@@ -151,7 +151,7 @@ void attempt(const Write& write, std::string& not_saved) {
 }  // namespace
 
 Result compute(const scene::Scene& given, const RunOptions& options) {
-  if (given.structure) fem::load_meshes();  // no part of the run's cost
+  if (!given.structures.empty()) fem::load_meshes();  // no part of the run's cost
   Stopwatch since;
   scene::Scene scene = given;
   if (options.threads > 0) scene.fluid.numerics.threads = options.threads;

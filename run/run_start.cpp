@@ -98,8 +98,9 @@ class Pairing {
     for (const solid::Body& solid : donor_.solids.bodies)
       if (solid.moves() || solid.residual_stress != 0)
         refuse("start.from", "the donor's solid '" + solid.name + "' is not at rest, and only fluids are laid over");
-    if (donor_.structure && donor_.structure->moves())
-      refuse("start.from", "the donor's structure is not at rest, and only fluids are laid over");
+    for (const fem::Settings& structure : donor_.structures)
+      if (structure.moves())
+        refuse("start.from", "the donor's structure '" + structure.name + "' is not at rest, and only fluids are laid over");
   }
 
   /// What a symmetry plane of the scene cuts off must be the mirror image of what it keeps.
@@ -209,7 +210,7 @@ class RunStart {
     if (on_a_line()) lay_spheres();
     else lay_particles();
     scene_.fluid.start_time = donor_.time();
-    if (scene_.structure) scene_.structure->start_time = donor_.time();
+    for (fem::Settings& structure : scene_.structures) structure.start_time = donor_.time();
     char text[300];
     std::snprintf(text, sizeof text, "start from the run of %s", donor_.words().c_str());
     std::string all = text;

@@ -60,7 +60,7 @@ std::array<bool, 3> balanced_axes(const scene::Scene& scene) {
     for (const Support& support : supports)
       for (std::size_t a = 0; a < 3; ++a) balanced[a] = balanced[a] && !support.fixed[a];
   };
-  if (scene.structure) held(scene.structure->supports);
+  for (const fem::Settings& structure : scene.structures) held(structure.supports);
   for (const solid::Body& solid : scene.solids.bodies) held(solid.supports);
   return balanced;
 }
@@ -78,7 +78,8 @@ double compression_energy(const sph::Fluid& fluid) {
 /// Energy [J] of a strain of 1e-10 and of the motion that goes with it, in structure and solids: far above what rounding makes
 /// of a body at rest, far below what anybody computes.
 double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
-  double fastest = scene.structure ? materials::wave_speed(scene.structure->material) : 0.0, mass = 0.0;
+  double fastest = 0, mass = 0;
+  for (const fem::Settings& structure : scene.structures) fastest = std::max(fastest, materials::wave_speed(structure.material));
   for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
   for (const auto& body : bodies) mass += body->ledger().mass;
   return 0.5 * mass * std::pow(1e-10 * fastest, 2);
@@ -121,7 +122,7 @@ Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
 
 void Simulation::build(const scene::Scene& scene) {
   std::vector<Finding> findings;
-  const auto attempt = [&](const char* table, auto build) {
+  const auto attempt = [&](const std::string& table, auto build) {
     try {
       build();
     } catch (const std::invalid_argument& mistake) {
@@ -134,7 +135,8 @@ void Simulation::build(const scene::Scene& scene) {
     return;
   }
   if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
-  if (scene.structure) attempt("structure", [&] { bodies_.push_back(std::make_unique<fem::Structure>(*scene.structure)); });
+  for (const fem::Settings& structure : scene.structures)
+    attempt(scene.path_of(structure), [&] { bodies_.push_back(std::make_unique<fem::Structure>(structure)); });
   solid::Solids* solids = nullptr;
   if (!scene.solids.bodies.empty())
     attempt("solids", [&] {
@@ -151,23 +153,32 @@ void Simulation::build(const scene::Scene& scene) {
       flow_ = std::make_unique<coupling::Flow>(*fluid_, scene.obstacles);
       for (const auto& body : bodies_) flow_->watch(*body);
     });
-  if (findings.empty()) attempt("coupling", [&] { make_driver(scene.coupling, solids); });
+  if (findings.empty()) attempt("coupling", [&] { make_driver(scene, solids); });
   if (findings.empty() && fluid_) fluid_->settle();
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 
-/// Water acts on the first body that it touches; others follow in time.
-void Simulation::make_driver(const coupling::Settings& settings, solid::Solids* solids) {
-  const auto drive = [&](DeformableBody* driven, std::unique_ptr<Driver> driver) {
-    driver_ = std::move(driver);
-    for (const auto& body : bodies_)
-      if (body.get() != driven) followers_.push_back(body.get());
-  };
-  if (!fluid_) return drive(bodies_.front().get(), std::make_unique<BodyAlone>(*bodies_.front()));
-  if (solids) return drive(solids, std::make_unique<OneSystem>(*flow_, *solids, settings));
-  for (const auto& body : bodies_)
-    if (!body->wet_surface().faces.empty()) return drive(body.get(), std::make_unique<Coupled>(*flow_, *body, settings));
-  drive(nullptr, std::make_unique<WaterAlone>(*flow_));
+/// Water acts on the bodies that it touches, on several structures as one; others follow in time.
+void Simulation::make_driver(const scene::Scene& scene, solid::Solids* solids) {
+  if (solids && fluid_) {
+    driver_ = std::make_unique<OneSystem>(*flow_, *solids, scene.coupling);
+    return;
+  }
+  WetBody* body = bodies_.empty() ? nullptr : bodies_.front().get();
+  if (scene.structures.size() > 1) {
+    std::vector<coupling::BodyGroup::Member> members;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) members.push_back({scene.structures[k].name, bodies_[k].get()});
+    group_ = std::make_unique<coupling::BodyGroup>(std::move(members));
+    body = group_.get();
+  }
+  if (!fluid_) {
+    driver_ = std::make_unique<BodyAlone>(*body, in_particles(bodies_.front()));
+  } else if (body && !body->wet_surface().faces.empty()) {
+    driver_ = std::make_unique<Coupled>(*flow_, *body, scene.coupling);
+  } else {
+    driver_ = std::make_unique<WaterAlone>(*flow_);
+    if (body) followers_.push_back(body);
+  }
 }
 
 void Simulation::take_start(const scene::Scene& scene) {
@@ -175,12 +186,14 @@ void Simulation::take_start(const scene::Scene& scene) {
   gravity_ = scene.fluid.gravity;
   surrounded_ = scene.fluid.surroundings.pressure > 0;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
-            !scene.structure;
+            scene.structures.empty();
   start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();
   start_angular_momentum_ = angular_momentum();
   start_energy_ = energy().total();
+  if (group_)
+    for (const auto& member : group_->members()) start_balance_.push_back(member.body->ledger().balance());
   const double compression = fluid_ ? compression_energy(*fluid_) : line_ ? line_->compression_energy() : 0.0;
   least_scale_ = copies_ * (compression + rounding_energy(scene, bodies_));
 }
@@ -190,7 +203,7 @@ long Simulation::steps() const { return line_ ? line_->steps() : fluid_ ? fluid_
 
 void Simulation::advance(double end) {
   last_ = driver_->advance(end);
-  for (DeformableBody* body : followers_) body->advance(time());
+  for (WetBody* body : followers_) body->advance(time());
 }
 
 void Simulation::visit_state(StateVisitor& state) {
@@ -199,6 +212,7 @@ void Simulation::visit_state(StateVisitor& state) {
   if (flow_) state.part("obstacles", [&] { flow_->visit_state(state); });
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     state.part("body " + std::to_string(b), [&] { bodies_[b]->visit_state(state); });
+  if (group_) state.part("group", [&] { group_->visit_state(state); });
   state.part("driver", [&] { driver_->visit_state(state); });
   state("last step", last_.words);
   state("last step size", last_.size);
@@ -253,6 +267,30 @@ EnergyBalance Simulation::energy() const {
   e.scale = std::max({std::abs(start_energy_), least_scale_, std::abs(e.external), std::abs(e.gravity), std::abs(e.surroundings),
                       std::abs(e.radiated), e.kinetic + e.structure_kinetic + e.obstacle_kinetic});
   return e;
+}
+
+std::vector<StructureAccount> Simulation::accounts() const {
+  std::vector<StructureAccount> all;
+  for (std::size_t k = 0; group_ && k < group_->members().size(); ++k) {
+    const auto& [name, body] = group_->members()[k];
+    const BodyLedger l = body->ledger();
+    const Vec3& given = group_->received_by(k);
+    const double scale =
+        std::max({l.kinetic + l.elastic + l.plastic, std::abs(l.received), std::abs(l.external), std::abs(l.gravity)});
+    all.push_back({.name = name,
+                   .cells = body->size().cells,
+                   .steps = body->steps(),
+                   .kinetic = copies_ * l.kinetic,
+                   .elastic = copies_ * l.elastic,
+                   .plastic = copies_ * l.plastic,
+                   .viscous = copies_ * (l.viscous + l.impact),
+                   .received = copies_ * l.received,
+                   .external = copies_ * l.external,
+                   .gravity = copies_ * l.gravity,
+                   .error = scale > 0 ? (l.balance() - start_balance_[k]) / scale : 0.0,
+                   .impulse = meridian_ ? meridian_->vector_in_space(Vec3(0.0, given[1], 0.0), meridian_->outward()) : given});
+  }
+  return all;
 }
 
 /// Of what is in particles [kg].
@@ -381,7 +419,11 @@ std::string Simulation::fastest_particle() const {
 output::NamedNumbers Simulation::passes() const {
   output::NamedNumbers all;
   const auto add = [&](const PassTimers& timers) {
-    for (const auto& pass : timers.seconds()) all.push_back(pass);
+    for (const auto& pass : timers.seconds()) {
+      const auto known = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.first == pass.first; });
+      if (known == all.end()) all.push_back(pass);
+      else known->second += pass.second;
+    }
   };
   if (fluid_) add(fluid_->timers());
   if (flow_ && !obstacles().empty()) add(flow_->timers());

@@ -11,6 +11,7 @@
 
 #include "core/deformable_body.hpp"
 #include "core/meridian.hpp"
+#include "coupling/body_group.hpp"
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
 #include "run/line_flow.hpp"
@@ -37,6 +38,17 @@ struct EnergyBalance {
   }
   double scale = 0;  // what errors are measured against: docs/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
+};
+
+/// What one of several structures has: energies [J] of the whole body.
+struct StructureAccount {
+  std::string name;
+  std::size_t cells = 0;
+  long steps = 0;
+  double kinetic = 0, elastic = 0, plastic = 0, viscous = 0;
+  double received = 0, external = 0, gravity = 0;  ///< work of the water, of loads, of gravity
+  double error = 0;                                ///< of its balance, over the largest of these works and energies
+  Vec3 impulse = Vec3::Zero();                     ///< from the water, of the computed part, in space [N s]
 };
 
 class Simulation {
@@ -90,13 +102,15 @@ class Simulation {
   /// A field of the fluid's particles, or of the mesh's cells, at time().
   std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
+  /// Of each structure, in the scene's order, where there are several; else none.
+  std::vector<StructureAccount> accounts() const;
   /// Which particle is the fastest, of the water if there is some, and where; empty where there are none.
   std::string fastest_particle() const;
 
  private:
   void build(const scene::Scene& scene);
   /// `solids`: those in particles, if there are some.
-  void make_driver(const coupling::Settings& settings, solid::Solids* solids);
+  void make_driver(const scene::Scene& scene, solid::Solids* solids);
   void take_start(const scene::Scene& scene);
   double mass() const;
   double all_mass() const;
@@ -112,16 +126,18 @@ class Simulation {
   std::unique_ptr<sph::Fluid> fluid_;
   std::unique_ptr<coupling::Flow> flow_;  // the fluid with its obstacles
   std::vector<std::unique_ptr<DeformableBody>> bodies_;
+  std::unique_ptr<coupling::BodyGroup> group_;  // of several structures
   std::unique_ptr<Driver> driver_;
-  std::vector<DeformableBody*> followers_;  // bodies that the driver does not advance
+  std::vector<WetBody*> followers_;  // what the driver does not advance
   Step last_;
   double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
   Vec3 gravity_ = Vec3::Zero();
   bool surrounded_ = false;  // does anything press from outside?
   double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;
-  double least_scale_ = 0;          // of energies: what pressure and rounding at the start stand for [J]
-  std::array<bool, 3> balanced_{};  // axes along which all impulses are booked
-  bool closed_ = false;             // does nothing act from outside?
+  double least_scale_ = 0;             // of energies: what pressure and rounding at the start stand for [J]
+  std::array<bool, 3> balanced_{};     // axes along which all impulses are booked
+  bool closed_ = false;                // does nothing act from outside?
+  std::vector<double> start_balance_;  // of each member of the group [J]
   Vec3 start_momentum_ = Vec3::Zero(), start_angular_momentum_ = Vec3::Zero();
 };
 

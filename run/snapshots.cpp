@@ -68,11 +68,11 @@ void write_cells(double time, BodySnapshot snapshot, bool at_stop, output::Struc
 }  // namespace
 
 Snapshots::Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on)
-    : simulation_(simulation), folder_(folder / "fields"), wanted_(scene.output) {
+    : simulation_(simulation), folder_(folder / "fields"), wanted_(scene.output), structures_(scene.structures) {
   if (wanted_.field_interval > 0 || !wanted_.field_times.empty()) open(goes_on);
 }
 
-/// One file a kind; a second body of a kind has a number.
+/// One file a kind; each of several structures has its own, with its name.
 void Snapshots::open(bool goes_on) {
   std::filesystem::create_directories(folder_);
   const auto particles = [&](const std::string& name) {
@@ -81,11 +81,10 @@ void Snapshots::open(bool goes_on) {
   };
   if (simulation_.has_fluid()) water_ = particles("particles");
   if (!simulation_.obstacles().empty()) obstacles_.emplace(folder_, "obstacles");
-  int of_particles = 0, of_cells = 0;
-  const auto numbered = [](const std::string& stem, int count) { return count > 1 ? stem + std::to_string(count) : stem; };
-  for (const auto& body : simulation_.bodies()) {
+  for (std::size_t k = 0; k < simulation_.bodies().size(); ++k) {
+    const auto& body = simulation_.bodies()[k];
     const bool in_particles = body->size().particles > 0;
-    const std::string name = in_particles ? numbered("solids", ++of_particles) : numbered("structure", ++of_cells);
+    const std::string name = in_particles ? "solids" : structures_.size() > 1 ? "structure_" + structures_[k].name : "structure";
     BodyFile file{.body = body.get(), .name = name, .particles = {}, .cells = {}};
     if (in_particles) file.particles = particles(name);
     else if (wanted_.structure_fields) file.cells.emplace(folder_, name);

@@ -44,6 +44,7 @@ class Snapshots {
   const Simulation& simulation_;
   std::filesystem::path folder_;
   const scene::Output& wanted_;
+  const std::vector<fem::Settings>& structures_;
   double last_time_ = -1.0;
   std::optional<output::ParticleFields> water_;
   std::vector<BodyFile> bodies_;

@@ -202,18 +202,22 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
   for (const coupling::Obstacle& obstacle : scene.obstacles)
     if (moves_by_itself(obstacle))
       refuse(scene, "obstacle '" + obstacle.name + "' moves by itself, but all else must be at rest" + remedy);
-  if (!scene.structure) return;
-  if (scene.structure->moves())
-    refuse(scene, "the structure must be at rest, but it has a velocity; take start.kind = \"plain\"");
+  const auto named = [&](const fem::Settings& structure) {
+    return scene.structures_listed ? "structure '" + structure.name + "'" : std::string("the structure");
+  };
+  for (const fem::Settings& structure : scene.structures)
+    if (structure.moves())
+      refuse(scene, named(structure) + " must be at rest, but it has a velocity; take start.kind = \"plain\"");
   // The wet face has what the medium has beyond the surroundings.
   const auto [least, most] = pressures_at_rest(medium, scene);
   const double around = scene.fluid.surroundings.pressure;
-  for (const fem::PressureLoad& load : scene.structure->loads)
-    for (const double p : load.pressure)
-      if (p != 0 && !is_rest(std::clamp(p, least - around, most - around), p))
-        refuse(scene, "a load of " + scene::rounded(p) + " Pa acts on the structure's face '" + load.face +
-                          "', which is neither 0 nor the medium's " + scene::rounded(least - around) + " Pa" +
-                          (around > 0 ? " beyond the surroundings" : "") + ", but all else must stay at rest" + remedy);
+  for (const fem::Settings& structure : scene.structures)
+    for (const fem::PressureLoad& load : structure.loads)
+      for (const double p : load.pressure)
+        if (p != 0 && !is_rest(std::clamp(p, least - around, most - around), p))
+          refuse(scene, "a load of " + scene::rounded(p) + " Pa acts on the face '" + load.face + "' of " + named(structure) +
+                            ", which is neither 0 nor the medium's " + scene::rounded(least - around) + " Pa" +
+                            (around > 0 ? " beyond the surroundings" : "") + ", but all else must stay at rest" + remedy);
 }
 
 std::string begin_spherically(scene::Scene& scene, StartNews news) {
@@ -263,7 +267,7 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
   }
   lay(states, charges.size() > 1, scene);
   fluid.start_time = charges.front().flow->time();
-  if (scene.structure) scene.structure->start_time = fluid.start_time;
+  for (fem::Settings& structure : scene.structures) structure.start_time = fluid.start_time;
   return text;
 }
 

@@ -46,11 +46,13 @@ void add_of(const scene::Scene& scene, const scene::Scene& other, const std::str
   for (const coupling::Obstacle& obstacle : scene.obstacles)
     found.push_back({"obstacle '" + obstacle.name + "'" + whose,
                      [shape = obstacle.shape, dimension](const Vec3& x) { return signed_distance(shape, x, dimension); }});
-  if (!scene.structure) return;
-  if (const auto shape = scene::structure_shape(scene.structure->mesh, scene.meridian)) {
+  for (const fem::Settings& structure : scene.structures) {
+    const auto shape = scene::structure_shape(structure.mesh, scene.meridian);
+    if (!shape) continue;
     const bool whole = shape->built_in().has_value();
     const std::array<bool, 3> planes = scene.fluid.symmetry.axis;
-    found.push_back({"the structure" + whose, [=](Vec3 x) {
+    const std::string name = scene.structures_listed ? "structure '" + structure.name + "'" : "the structure";
+    found.push_back({name + whose, [=](Vec3 x) {
                        for (int a = 0; a < 3; ++a)
                          if (!whole && planes[a]) x[a] = std::abs(x[a]);
                        return shape->signed_distance(x);

@@ -20,16 +20,14 @@ struct Draft {
   Report report;
   Report warnings;  ///< what may be meant, and probably is not
   bool dimension_good = true, spacing_good = false;
-  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes, obstacle_nodes,
+  std::vector<const Node*> body_nodes, solid_nodes, wall_nodes, plane_nodes, obstacle_nodes, structure_nodes,
       probe_nodes;  ///< into root, beside the scene's own vectors
-  std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, obstacle_good, probe_good;
+  std::vector<bool> body_shape_good, solid_shape_good, wall_shape_good, structure_shape_good, obstacle_good, probe_good;
   struct NamedSubtraction {
     const Node* name;  ///< as written
     std::size_t from;  ///< of which body; solids count on after the bodies
   };
   std::vector<NamedSubtraction> named_subtractions;
-  const Node* structure_node = nullptr;
-  bool structure_shape_good = false;
 };
 
 /// The file itself, or the one of the usual name in a folder. Throws FileError, which ends in the hint, where there is none.
@@ -45,9 +43,9 @@ void read_fluid(Draft& draft);  // read_fluid.cpp: [resolution], [symmetry], [sc
 void read_obstacles(Draft& draft);
 /// Of scenes on the one-dimensional mesh: defaults that need all bodies.
 void complete_line(Draft& draft);
-void read_solids(Draft& draft);     // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
-void read_structure(Draft& draft);  // read_structure.cpp: [structure], [coupling]
-void read_output(Draft& draft);     // read_output.cpp: [[probes]], [output], [start]
+void read_solids(Draft& draft);      // read_solids.cpp: [[solids]], [solid_scheme], [[planes]]
+void read_structures(Draft& draft);  // read_structure.cpp: [structure], [[structures]], [coupling]
+void read_output(Draft& draft);      // read_output.cpp: [[probes]], [output], [start]
 void read_comparison(Draft& draft, const std::vector<ComparisonKind>& kinds);  // read_comparison.cpp: [comparison]
 /// validate_revolution.cpp: finds the axis of an axisymmetric scene, complains of what is not of revolution about it, and leaves
 /// out planes of symmetry through it.

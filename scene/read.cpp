@@ -113,7 +113,7 @@ Scene read(const std::filesystem::path& path, const std::vector<ComparisonKind>&
   resolve_subtractions(draft);
   read_obstacles(draft);
   complete_line(draft);
-  read_structure(draft);
+  read_structures(draft);
   read_output(draft);
   read_comparison(draft, kinds);
   settle_revolution(draft);

@@ -1,4 +1,4 @@
-// [structure] and [coupling].
+// [structure], [[structures]] and [coupling].
 #include <algorithm>
 
 #include "core/gmsh_file.hpp"
@@ -130,41 +130,59 @@ void read_supports(const TableReader& table, const std::vector<std::string>& fac
   read_faces(table, "supports", faces, into, [](const TableReader&, const Support&) {});
 }
 
-void read_structure(Draft& draft) {
-  const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
-  if (const Node* node = top.table("coupling")) {
-    const TableReader table(*node, "coupling", "coupling", 3, draft.report);
-    read_fields(table, draft.scene.coupling);
-    if (!top.has("structure") && !top.has("solids"))
-      draft.report.add(*node,
-                       "[coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one");
-  }
-  const Node* node = top.table("structure");
-  if (!node) return;
-  draft.structure_node = node;
-  if (draft.dimension_good && draft.scene.fluid.dimension != 3) {
-    draft.report.add(
-        *node, "[structure] needs dimension = 3, but the scene has dimension = " + std::to_string(draft.scene.fluid.dimension));
-  }
-  const TableReader table(*node, "structure", "structure", 3, draft.report);
+namespace {
+
+/// Without a name of its own it has the one given.
+void read_one(const Node& node, const std::string& path, const std::string& name, Draft& draft) {
   fem::Settings structure;
+  structure.name = name;
+  const TableReader table(node, path, "structure", 3, draft.report);
   read_fields(table, structure);
   read_radial(table, structure.radial);
-  draft.structure_shape_good = read_mesh(table, draft, structure.element, structure.mesh);
+  const bool shape_good = read_mesh(table, draft, structure.element, structure.mesh);
   if (const Node* material = table.find("material"))
     read_solid_material(*material, table.path_of("material"), draft, structure.material);
   for (int a = 0; a < 3; ++a)
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
-  const std::vector<std::string> faces = draft.structure_shape_good
-                                             ? StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis)
-                                             : std::vector<std::string>{};
+  const std::vector<std::string> faces =
+      shape_good ? StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
   read_supports(table, faces, structure.supports);
   read_faces(table, "loads", faces, structure.loads, check_load);
   structure.planes = draft.scene.solids.planes;
   structure.gravity = draft.scene.fluid.gravity;
   for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
-  draft.scene.structure = structure;
+  draft.scene.structures.push_back(structure);
+  draft.structure_nodes.push_back(&node);
+  draft.structure_shape_good.push_back(shape_good);
+}
+
+}  // namespace
+
+void read_structures(Draft& draft) {
+  const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
+  if (const Node* node = top.table("coupling")) {
+    const TableReader table(*node, "coupling", "coupling", 3, draft.report);
+    read_fields(table, draft.scene.coupling);
+    if (!top.has("structure") && !top.has("structures") && !top.has("solids"))
+      draft.report.add(*node,
+                       "[coupling] has nothing to couple: the scene has no [structure] and no [[solids]]; remove it or add one");
+  }
+  const Node* one = top.table("structure");
+  const std::vector<const Node*> several = top.tables("structures");
+  if (one && !several.empty()) {
+    draft.report.add(*one, "[structure] and [[structures]] exclude each other; write this one as one more of [[structures]]");
+    one = nullptr;
+  }
+  const Node* first = one ? one : several.empty() ? nullptr : several.front();
+  if (first && draft.dimension_good && draft.scene.fluid.dimension != 3)
+    draft.report.add(*first,
+                     (one ? "[structure] needs" : "[[structures]] need") +
+                         (" dimension = 3, but the scene has dimension = " + std::to_string(draft.scene.fluid.dimension)));
+  if (one) read_one(*one, "structure", "structure", draft);
+  draft.scene.structures_listed = !several.empty();
+  for (std::size_t i = 0; i < several.size(); ++i)
+    read_one(*several[i], element_path("structures", *several[i], i), std::to_string(i), draft);
 }
 
 }  // namespace undex::scene

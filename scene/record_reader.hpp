@@ -32,6 +32,12 @@ inline bool read(const TableReader& table, const Key& key, std::optional<Vec3>& 
   into = value;
   return true;
 }
+inline bool read(const TableReader& table, const Key& key, std::optional<std::string>& into) {
+  std::string value;
+  if (!table.read(key.name, value)) return false;
+  into = value;
+  return true;
+}
 inline bool read(const TableReader& table, const Key& key, std::string& into) {
   return key.form == Form::name ? table.read_name(key.name, into) : table.read(key.name, into);
 }

@@ -39,7 +39,7 @@ class Judge {
     setting();
     for (const sph::Body& body : scene_.fluid.bodies) of_body(body);
     for (const sph::Wall& wall : scene_.fluid.walls) of_wall(wall);
-    if (scene_.structure) of_structure(*scene_.structure);
+    for (const fem::Settings& structure : scene_.structures) of_structure(structure);
     for (const solid::Body& solid : scene_.solids.bodies) of_solid(solid);
     for (const coupling::Obstacle& obstacle : scene_.obstacles) of_obstacle(obstacle);
     return std::move(found_);
@@ -145,7 +145,7 @@ class Judge {
   }
 
   void of_structure(const fem::Settings& structure) {
-    const std::string path = "structure.shape";
+    const std::string table = scene_.path_of(structure), path = table + ".shape";
     if (const auto* tube = std::get_if<fem::TubeMesh>(&structure.mesh)) {
       if (const std::string why = flaw(shape_of(*tube)); !why.empty()) object(path, why);
     } else if (const auto* rod = std::get_if<fem::RodMesh>(&structure.mesh)) {
@@ -155,10 +155,10 @@ class Judge {
     } else if (const auto& read = std::get<fem::GmshMesh>(structure.mesh).read; !read || !is_quadrangle(read->cells.at(0))) {
       object(path, "its mesh is one of hexahedra in space; mesh its meridian with quadrangles, or take \"tube\" or \"rod\"");
     }
-    of_motion("structure", structure.radial);
-    if (!is_along(structure.initial_velocity)) object("structure.velocity", "it must be along the axis of revolution, " + axis_);
-    if (!structure.spin.isZero()) object("structure.spin", "nothing turns in an axisymmetric scene; leave it out");
-    of_supports("structure", structure.supports);
+    of_motion(table, structure.radial);
+    if (!is_along(structure.initial_velocity)) object(table + ".velocity", "it must be along the axis of revolution, " + axis_);
+    if (!structure.spin.isZero()) object(table + ".spin", "nothing turns in an axisymmetric scene; leave it out");
+    of_supports(table, structure.supports);
     slip(structure.wet_faces.empty());
   }
 
@@ -383,12 +383,15 @@ Meridian line_along(const Scene& scene, int axis) {
   if (std::any_of(walls.begin(), walls.end(), [&](const sph::Wall& wall) { return take(wall.container); })) return line;
   if (std::any_of(bodies.begin(), bodies.end(), [&](const sph::Body& body) { return take(body.shape.base); })) return line;
   if (std::any_of(solids.begin(), solids.end(), [&](const solid::Body& solid) { return take(solid.shape.base); })) return line;
-  if (scene.structure)
-    std::visit(
+  const auto take_mesh = [&](const fem::Settings& structure) {
+    return std::visit(
         [&](const auto& mesh) {
-          if constexpr (requires { mesh.axis; }) take(Primitive(shape_of(mesh)));
+          if constexpr (requires { mesh.axis; }) return take(Primitive(shape_of(mesh)));
+          else return false;
         },
-        scene.structure->mesh);
+        structure.mesh);
+  };
+  std::any_of(scene.structures.begin(), scene.structures.end(), take_mesh);
   return line;
 }
 
@@ -436,7 +439,7 @@ Scene for_solvers(const Scene& scene) {
   fluid.lattice.origin = Vec3(0.0, scene.fluid.lattice.origin[line.axis], 0.0);
   for (sph::Body& body : fluid.bodies) body = meridian_of(body, line);
   for (sph::Wall& wall : fluid.walls) wall = meridian_of(wall, line);
-  if (meridian.structure) meridian.structure = meridian_of(*scene.structure, line);
+  for (fem::Settings& structure : meridian.structures) structure = meridian_of(structure, line);
   for (solid::Body& solid : meridian.solids.bodies) solid = meridian_of(solid, line);
   for (RigidPlane& plane : meridian.solids.planes) plane.axis = axial;
   for (coupling::Obstacle& obstacle : meridian.obstacles) obstacle = meridian_of(obstacle, line);

@@ -114,8 +114,9 @@ struct Probe {
   }
   std::string name;
   Kind kind = Kind::fluid;
-  Vec3 point = Vec3::Zero();            ///< [m]
-  std::vector<std::string> quantities;  ///< of the lists in core/point_values.hpp
+  std::optional<std::string> structure;  ///< by its name; nothing: the only one, or a solid
+  Vec3 point = Vec3::Zero();             ///< [m]
+  std::vector<std::string> quantities;   ///< of the lists in core/point_values.hpp
 };
 
 /// The quantities that a probe may ask of, for docs/scene-file.md.
@@ -132,6 +133,10 @@ void describe(Probe& probe, Visit&& visit) {
          .rule = "\"fluid\"; \"structure\" without bodies",
          .meaning = "a fixed point of the fluid; of a rigid wall, wet face or solid, with which it moves; a material point "
                     "of the structure or of a solid"});
+  visit(probe.structure, {.name = "structure",
+                          .rule = "the only one",
+                          .values = "a name",
+                          .meaning = "\"structure\": the one of [[structures]] that it is a point of"});
   visit(probe.point, {.name = "point",
                       .unit = "m",
                       .range = Range::position(),
@@ -226,7 +231,8 @@ struct Scene {
   std::optional<Meridian> meridian;  ///< of an axisymmetric scene: places are in space, solvers compute in it
   sph::Settings fluid;               ///< and what all particles share; without bodies where there is no fluid
   solid::Settings solids;            ///< solids in particles; rigid planes for structures too
-  std::optional<fem::Settings> structure;
+  std::vector<fem::Settings> structures;
+  bool structures_listed = false;  ///< written as [[structures]], not as [structure]
   coupling::Settings coupling;
   std::vector<coupling::Obstacle> obstacles;  ///< rigid bodies in the fluid; subtracted from its shapes
   Start start;
@@ -235,6 +241,13 @@ struct Scene {
   Comparison comparison;
   Places places;                      ///< of its keys in the file
   std::vector<std::string> warnings;  ///< "file:line:column: what is probably not meant"
+
+  /// The table of a structure in the file: "structure", or "structures.NAME".
+  std::string path_of(const fem::Settings& structure) const {
+    return structures_listed ? "structures." + structure.name : "structure";
+  }
+  /// The structure of a scene that has one alone; else null.
+  const fem::Settings* only_structure() const { return structures.size() == 1 ? &structures.front() : nullptr; }
 };
 
 template <class Visit>
@@ -267,8 +280,8 @@ void describe(Scene& scene, Visit&& visit) {
          .unit = "m/s^2",
          .meaning = "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them"});
   for (const char* table :
-       {"resolution", "symmetry", "surroundings", "scheme", "start", "materials", "bodies", "walls", "structure", "solids",
-        "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
+       {"resolution", "symmetry", "surroundings", "scheme", "start", "materials", "bodies", "walls", "structure", "structures",
+        "solids", "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
     visit(ByHand{}, {.name = table});
 }
 

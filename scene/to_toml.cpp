@@ -126,25 +126,26 @@ void put_wall(Writer& writer, const sph::Wall& wall) {
 }
 
 template <class Type>
-void put_mesh(Writer& writer, const Type& mesh) {
-  writer.table("[structure.shape]", std::string("structure.") + mesh.name);
+void put_mesh(Writer& writer, const std::string& owner, const Type& mesh) {
+  writer.table("[" + owner + ".shape]", std::string("structure.") + mesh.name);
   writer.put("type", mesh.name);
   writer.fields(mesh);
   if constexpr (Described<fem::Cells<Type>>) {
-    writer.table("[structure.cells]", std::string("cells.") + mesh.name);
+    writer.table("[" + owner + ".cells]", std::string("cells.") + mesh.name);
     writer.fields(fem::Cells<Type>{mesh});
   }
 }
 
-void put_structure(Writer& writer, const fem::Settings& structure) {
-  writer.table("[structure]", "structure");
+void put_structure(Writer& writer, const fem::Settings& structure, bool listed) {
+  const std::string owner = listed ? "structures" : "structure";
+  writer.table(listed ? "[[structures]]" : "[structure]", "structure");
   writer.fields(structure);
-  std::visit([&](const auto& mesh) { put_mesh(writer, mesh); }, structure.mesh);
-  put_radial(writer, "structure", structure.radial);
-  put_solid_material(writer, "structure.material", structure.material);
-  put_supports(writer, "structure", structure.supports);
+  std::visit([&](const auto& mesh) { put_mesh(writer, owner, mesh); }, structure.mesh);
+  put_radial(writer, owner, structure.radial);
+  put_solid_material(writer, owner + ".material", structure.material);
+  put_supports(writer, owner, structure.supports);
   for (const fem::PressureLoad& load : structure.loads) {
-    writer.table("[[structure.loads]]", "loads");
+    writer.table("[[" + owner + ".loads]]", "loads");
     writer.fields(load);
   }
 }
@@ -199,14 +200,12 @@ std::string to_toml(const Scene& scene) {
   writer.top();
   writer.fields(scene);
   put_fluid(writer, scene.fluid, line);
-  if (scene.structure) {
-    writer.set_dimension(3);
-    put_structure(writer, *scene.structure);
-    writer.set_dimension(dimension);
-  }
+  writer.set_dimension(3);
+  for (const fem::Settings& structure : scene.structures) put_structure(writer, structure, scene.structures_listed);
+  writer.set_dimension(dimension);
   if (!scene.solids.bodies.empty()) put_solids(writer, scene.solids, line);
   put_planes(writer, scene.solids.planes);
-  if (!line && (scene.structure || !scene.solids.bodies.empty())) {
+  if (!line && (!scene.structures.empty() || !scene.solids.bodies.empty())) {
     writer.table("[coupling]", "coupling");
     writer.fields(scene.coupling);
   }

@@ -25,7 +25,11 @@ Validator::Validator(Draft& draft)
       fluid_(draft.scene.fluid),
       dimension_(draft.scene.fluid.dimension),
       kept_(kept_part(draft.scene.fluid.symmetry.axis)) {
-  if (scene_.structure && draft.structure_shape_good) solid_ = structure_shape(scene_.structure->mesh, scene_.meridian);
+  for (std::size_t i = 0; i < scene_.structures.size(); ++i) {
+    const fem::Settings& each = scene_.structures[i];
+    structures_.push_back({.path = scene_.path_of(each), .settings = &each, .node = draft.structure_nodes[i], .shape = {}});
+    if (draft.structure_shape_good[i]) structures_.back().shape = structure_shape(each.mesh, scene_.meridian);
+  }
 }
 
 void Validator::run() {
@@ -46,7 +50,7 @@ void Validator::run() {
   if (draft_.report.size() > before) return;  // what is far too large is not searched for overlaps
   overlaps();
   walls();
-  structure();
+  structures();
   solids();
   mirrors();
   motions();
@@ -126,6 +130,7 @@ void Validator::names() {
   };
   unique("bodies", fluid_.bodies, draft_.body_nodes);
   unique("solids", scene_.solids.bodies, draft_.solid_nodes);
+  if (scene_.structures_listed) unique("structures", scene_.structures, draft_.structure_nodes);
   unique("obstacles", scene_.obstacles, draft_.obstacle_nodes);
   for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i)
     for (const sph::Body& body : fluid_.bodies)
@@ -137,17 +142,17 @@ void Validator::names() {
 
 void Validator::parts() {
   const bool solids = !draft_.solid_nodes.empty();
-  if (draft_.body_nodes.empty() && !draft_.structure_node && !solids)
+  if (draft_.body_nodes.empty() && structures_.empty() && !solids)
     draft_.report.add(draft_.root,
                       "the scene has neither [[bodies]] nor [[solids]] nor a [structure]: there is nothing to compute; add one");
-  if (solids && draft_.structure_node)
-    draft_.report.add(*draft_.structure_node,
+  if (solids && !structures_.empty())
+    draft_.report.add(*structures_.front().node,
                       "[structure] and [[solids]] in one scene are not built: a scene's deforming bodies are "
                       "either finite elements or particles; remove one of the two");
   if (solids && draft_.dimension_good && dimension_ == 1 && scene_.geometry != Geometry::plane)
     draft_.report.add(*draft_.solid_nodes[0],
                       "[[solids]] need dimension = 2 (plane strain) or 3, but the scene has dimension = 1");
-  if (!solids && !draft_.structure_node && !draft_.plane_nodes.empty())
+  if (!solids && structures_.empty() && !draft_.plane_nodes.empty())
     draft_.report.add(*draft_.plane_nodes[0],
                       "[[planes]] stop solids only, and the scene has neither [[solids]] nor a [structure]; for fluid "
                       "take [[walls]]");

@@ -41,7 +41,7 @@ bool Validator::part(const Part& one) {
                path + ".subtract: the shape number " + std::to_string(k) +
                    " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
   }
-  const Depth within = inside(shape, dimension_);
+  const NearDepth within = inside(shape, dimension_);
   if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
     complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller");
     return false;
@@ -64,13 +64,14 @@ void Validator::overlaps() {
                  later.path() + " overlaps " + first.path() + ", e.g. at " + text(*at, dimension_) +
                      " m; move one, or write subtract = [\"" + later.name + "\"] in " + first.path());
     }
-    if (!solid_ || dimension_ != 3) continue;
-    const NearDepth in_structure = [&](const Vec3& x, double) { return -solid_->signed_distance(x); };
-    const Bounds window = common(extent, solid_->extent());
-    if (const auto at = find_in_both(in_structure, inside(*later.shape, 3), window, tolerance(), 3))
-      complain(*later.node, "shape",
-               later.path() + " overlaps the structure, e.g. at " + text(*at, 3) +
-                   " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");
+    for (const Structure& structure : structures_) {
+      if (!structure.shape || dimension_ != 3) continue;
+      const Bounds window = common(extent, structure.shape->extent());
+      if (const auto at = find_in_both(structure.near_depth(), inside(*later.shape, 3), window, tolerance(), 3))
+        complain(*later.node, "shape",
+                 later.path() + " overlaps " + structure.named() + ", e.g. at " + text(*at, 3) +
+                     " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");
+    }
   }
 }
 

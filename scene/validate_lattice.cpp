@@ -7,7 +7,8 @@ void Validator::gravity() {
   if (fluid_.gravity.isZero()) return;
   // A plane that cuts nothing is a wall; there the image may fall the other way.
   const auto cut = [&](int a) {
-    if (solid_ && solid_->extent().low[a] < -tolerance()) return true;
+    for (const Structure& each : structures_)
+      if (each.shape && each.shape->extent().low[a] < -tolerance()) return true;
     for (const Part& part : parts_)
       if (part.shape_good && bounds(*part.shape, dimension_).low[a] < -tolerance()) return true;
     return false;

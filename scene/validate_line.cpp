@@ -36,8 +36,9 @@ void Validator::line() {
 /// What one coordinate does not have.
 void Validator::off_the_line(const std::string& words) {
   const bool spherical = scene_.geometry == Geometry::spherical;
-  if (draft_.structure_node)
-    draft_.report.add(*draft_.structure_node, words + " has no finite elements; write the structure as a layer, in [[solids]]");
+  if (!structures_.empty())
+    draft_.report.add(*structures_.front().node,
+                      words + " has no finite elements; write the structure as a layer, in [[solids]]");
   if (!draft_.obstacle_nodes.empty())
     draft_.report.add(*draft_.obstacle_nodes[0],
                       "[[obstacles]] do not go with " + words +

@@ -12,10 +12,9 @@ void Validator::motions() {
         *motion_of, one.path(), *one.node, [&](const Vec3& x) { return -signed_distance(*one.shape, x, dimension_); },
         bounds(one.shape->base, dimension_));
   }
-  if (scene_.structure && scene_.structure->radial && solid_)
-    motion(
-        *scene_.structure->radial, "structure", *draft_.structure_node,
-        [&](const Vec3& x) { return -solid_->signed_distance(x); }, solid_->extent());
+  for (const Structure& each : structures_)
+    if (each.settings->radial && each.shape)
+      motion(*each.settings->radial, each.path, *each.node, each.depth(), each.shape->extent());
 }
 
 void Validator::motion(const RadialMotion& motion, const std::string& path, const Node& node, const Depth& solid,

@@ -222,10 +222,10 @@ void Validator::room_for(std::size_t index) {
             find_in_both(inside(*parts_[i].shape, dimension_), inside(shape, dimension_), window, tolerance(), dimension_))
       complain(node, "shape",
                path + " overlaps " + parts_[i].path() + ", e.g. at " + text(*at, dimension_) + " m; move one of them");
-  if (solid_ && dimension_ == 3) {
-    const NearDepth in_structure = [&](const Vec3& x, double) { return -solid_->signed_distance(x); };
-    if (const auto at = find_in_both(in_structure, inside(shape, 3), common(window, solid_->extent()), tolerance(), 3))
-      complain(node, "shape", path + " overlaps the structure, e.g. at " + text(*at, 3) + " m; move one of them");
+  for (const Structure& each : structures_) {
+    if (!each.shape || dimension_ != 3) continue;
+    if (const auto at = find_in_both(each.near_depth(), inside(shape, 3), common(window, each.shape->extent()), tolerance(), 3))
+      complain(node, "shape", path + " overlaps " + each.named() + ", e.g. at " + text(*at, 3) + " m; move one of them");
   }
   if (scene_.start.kind == Start::Kind::plane_wave) {
     const Start::Wave& wave = scene_.start.wave;

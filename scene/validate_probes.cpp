@@ -9,6 +9,32 @@ double Validator::distance_to_solids(const Vec3& x) const {
   return away;
 }
 
+/// The structure that a probe names, or the only one.
+void Validator::on_structure(const Probe& probe, const Node& node) {
+  const std::string path = "probes." + probe.name;
+  const Structure* on = structures_.size() == 1 ? &structures_.front() : nullptr;
+  std::vector<std::string> names;
+  for (const Structure& each : structures_) {
+    names.push_back(each.settings->name);
+    if (probe.structure && *probe.structure == each.settings->name) on = &each;
+    if (!each.shape) return;  // what is wrong with it is said elsewhere
+  }
+  if (probe.structure && (!on || *probe.structure != on->settings->name))
+    return complain(node, "structure",
+                    path + ".structure: no structure '" + *probe.structure + "'" + suggestion(*probe.structure, names));
+  if (!on) {
+    const auto nearest = std::min_element(structures_.begin(), structures_.end(), [&](const Structure& a, const Structure& b) {
+      return a.shape->signed_distance(probe.point) < b.shape->signed_distance(probe.point);
+    });
+    return complain(node, "point",
+                    path + ": the scene has several structures; name the one that the probe lies on, e.g. structure = " +
+                        quoted(nearest->settings->name) + ", the nearest");
+  }
+  const double away = on->shape->signed_distance(probe.point);
+  if (away > 0.1 * on->shape->thickness())
+    complain(node, "point", path + ".point is " + rounded(away) + " m away from " + on->named() + "; move it onto it");
+}
+
 void Validator::probe(const Probe& probe, const Node& node) {
   const std::string path = "probes." + probe.name;
   for (int a = 0; a < dimension_; ++a)
@@ -17,8 +43,12 @@ void Validator::probe(const Probe& probe, const Node& node) {
                path + ".point lies at " + "xyz"[a] + " < 0, in the part that the symmetry plane leaves out; mirror it");
       return;
     }
+  if (probe.structure && (probe.kind != Probe::Kind::structure || structures_.empty())) {
+    complain(node, "structure", path + ".structure is of probes of kind = \"structure\" on [[structures]]; leave it out");
+    return;
+  }
   if (probe.kind == Probe::Kind::structure) {
-    if (!draft_.structure_node && draft_.solid_nodes.empty()) {
+    if (structures_.empty() && draft_.solid_nodes.empty()) {
       complain(node, "kind",
                path + " is a structure probe, but the scene has no [structure] and no [[solids]]; add one or change kind");
     } else if (!draft_.solid_nodes.empty() && all_usable()) {
@@ -27,10 +57,8 @@ void Validator::probe(const Probe& probe, const Node& node) {
         thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
       if (const double away = distance_to_solids(probe.point); away > 0.1 * thinnest)
         complain(node, "point", path + ".point is " + rounded(away) + " m away from every solid; move it onto one");
-    } else if (solid_ && dimension_ == 3) {
-      const double away = solid_->signed_distance(probe.point);
-      if (away > 0.1 * solid_->thickness())
-        complain(node, "point", path + ".point is " + rounded(away) + " m away from the structure; move it onto it");
+    } else if (dimension_ == 3) {
+      on_structure(probe, node);
     }
     return;
   }
@@ -42,8 +70,10 @@ void Validator::probe(const Probe& probe, const Node& node) {
   for (std::size_t w = 0; w < fluid_.walls.size(); ++w)
     if (!draft_.wall_shape_good[w]) return;
   if (probe.kind == Probe::Kind::wall) {
-    if (scene_.structure && !solid_) return;  // what is wrong with it is said elsewhere
-    const bool wet = scene_.structure && !scene_.structure->wet_faces.empty();
+    const auto unread = [](const Structure& each) { return !each.shape; };
+    if (std::any_of(structures_.begin(), structures_.end(), unread)) return;  // what is wrong with it is said elsewhere
+    const bool wet =
+        std::any_of(structures_.begin(), structures_.end(), [](const auto& each) { return !each.settings->wet_faces.empty(); });
     if (fluid_.walls.empty() && !wet && scene_.solids.bodies.empty()) {
       complain(
           node, "kind",
@@ -53,7 +83,8 @@ void Validator::probe(const Probe& probe, const Node& node) {
     double away = 1e300;
     for (const sph::Wall& wall : fluid_.walls)
       away = std::min(away, std::abs(signed_distance(wall.container, probe.point, dimension_)));
-    if (solid_ && dimension_ == 3) away = std::min(away, std::abs(solid_->signed_distance(probe.point)));
+    for (const Structure& each : structures_)
+      if (dimension_ == 3) away = std::min(away, std::abs(each.shape->signed_distance(probe.point)));
     away = std::min(away, std::abs(distance_to_solids(probe.point)));
     if (away > near())
       complain(node, "point",

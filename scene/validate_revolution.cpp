@@ -15,7 +15,7 @@ void settle_revolution(Draft& draft) {
   if (!draft.report.empty()) return;  // it has no meridian
   for (int a = 0; a < 3; ++a)
     if (a != scene.axis) scene.fluid.symmetry.axis[static_cast<std::size_t>(a)] = false;
-  if (scene.structure) std::erase_if(scene.structure->symmetry_axes, [&](int a) { return a != scene.axis; });
+  for (fem::Settings& each : scene.structures) std::erase_if(each.symmetry_axes, [&](int a) { return a != scene.axis; });
   scene.meridian = line;
 }
 

@@ -33,26 +33,27 @@ void Validator::sizes() {
       all.include(extent.high);
     }
   const double of_bodies = parts_.empty() || all.empty() ? 0.0 : largest(all, dimension_);
-  if (dimension_ == 3) size_of_structure(of_bodies);
+  if (dimension_ == 3)
+    for (const Structure& each : structures_) size_of(each, of_bodies);
   if (of_bodies > 0) size_of_walls(of_bodies);
   counts();
 }
 
-void Validator::size_of_structure(double of_bodies) {
-  if (!solid_) return;
-  const Node& node = *draft_.structure_node;
-  const double size = largest(solid_->extent(), 3);
+void Validator::size_of(const Structure& one, double of_bodies) {
+  if (!one.shape) return;
+  const Node& node = *one.node;
+  const double size = largest(one.shape->extent(), 3);
   if (of_bodies > 0 && size > most_times * of_bodies)
     complain(node, "shape",
-             "structure.shape is " + rounded(size) + " m long, " + rounded(std::round(size / of_bodies)) +
+             one.path + ".shape is " + rounded(size) + " m long, " + rounded(std::round(size / of_bodies)) +
                  " times as long as all bodies together (" + rounded(of_bodies) +
                  " m): is the mesh in millimetres? Lengths are in m");
   else if (of_bodies > 0 && draft_.spacing_good && size < fluid_.lattice.spacing)
     complain(node, "shape",
-             "structure.shape is " + rounded(size) + " m long, less than the spacing " + rounded(fluid_.lattice.spacing) +
+             one.path + ".shape is " + rounded(size) + " m long, less than the spacing " + rounded(fluid_.lattice.spacing) +
                  " m of the water: is it in other units than m? Else make the spacing smaller");
   else if (of_bodies == 0 && size > 200)
-    warn(node, "shape", "structure.shape is " + rounded(size) + " m long: is the mesh in millimetres? Lengths are in m");
+    warn(node, "shape", one.path + ".shape is " + rounded(size) + " m long: is the mesh in millimetres? Lengths are in m");
 }
 
 void Validator::size_of_walls(double of_bodies) {

@@ -3,35 +3,68 @@
 
 namespace undex::scene {
 
-void Validator::structure() {
-  if (!draft_.structure_node || dimension_ != 3) return;
-  const Node& node = *draft_.structure_node;
-  const fem::Settings& structure = *scene_.structure;
-  if (solid_ && solid_->built_in()) halved("structure", node, *solid_->built_in());
-  if (solid_ && solid_->mesh()) pieces();
+void Validator::structures() {
+  if (dimension_ != 3) return;
+  for (const Structure& each : structures_) structure(each);
+  for (std::size_t later = 0; later < structures_.size(); ++later)
+    for (std::size_t first = 0; first < later; ++first) apart(structures_[first], structures_[later]);
+}
+
+void Validator::structure(const Structure& one) {
+  const Node& node = *one.node;
+  const std::optional<StructureShape>& shape = one.shape;
+  if (shape && shape->built_in()) halved(one.path, node, *shape->built_in());
+  if (shape && shape->mesh()) pieces(one);
   const bool fluid = !fluid_.bodies.empty();
-  if (fluid && structure.wet_faces.empty())
+  if (fluid && one.settings->wet_faces.empty())
     complain(node, "wet",
-             "structure.wet is empty, so the water does not see the structure; name the faces that it touches, "
-             "e.g. wet = [\"" +
-                 std::string(solid_ && solid_->mesh() ? "1" : "inner") + "\"]");
-  if (draft_.body_nodes.empty() && !structure.wet_faces.empty())
-    complain(node, "wet", "structure.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
-  if (fluid && solid_ && draft_.spacing_good && all_usable())
-    for (const std::string& face : structure.wet_faces) wet_face("structure", node, solid_->face_points(face), face);
+             one.path +
+                 ".wet is empty, so the water does not see the structure; name the faces that it touches, "
+                 "e.g. wet = [\"" +
+                 std::string(shape && shape->mesh() ? "1" : "inner") + "\"]");
+  if (draft_.body_nodes.empty() && !one.settings->wet_faces.empty())
+    complain(node, "wet", one.path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
+  if (fluid && shape && draft_.spacing_good && all_usable())
+    for (const std::string& face : one.settings->wet_faces) wet_face(one.path, node, shape->face_points(face), face);
+}
+
+/// Structures do not overlap, and nothing holds those together that touch.
+void Validator::apart(const Structure& first, const Structure& later) {
+  if (!first.shape || !later.shape) return;
+  const double thinnest = std::min(first.shape->thickness(), later.shape->thickness()), touching = 1e-3 * thinnest;
+  const Bounds beside = later.shape->extent();
+  const Bounds window = common(common(kept_, first.shape->extent()), beside);
+  if (const auto at = find_in_both(first.near_depth(), later.near_depth(), window, touching, 3)) {
+    complain(*later.node, "shape", later.path + " overlaps " + first.path + ", e.g. at " + text(*at, 3) + " m; move one of them");
+    return;
+  }
+  const auto touches = [&](const Structure& one, const Structure& other) -> std::optional<Vec3> {
+    const Depth depth = other.depth();
+    for (const std::string& face : one.shape->faces({false, false, false}))
+      for (const Vec3& x : one.shape->face_points(face))
+        if (in_kept_part(x) && std::abs(depth(x)) < touching) return x;
+    return std::nullopt;
+  };
+  std::optional<Vec3> at = touches(first, later);
+  if (!at) at = touches(later, first);
+  if (at)
+    warn(*later.node, "shape",
+         later.path + " touches " + first.path + ", e.g. at " + text(*at, 3) +
+             " m, and nothing holds them together or keeps them from passing through each other; leave a gap, or write them as "
+             "one mesh");
 }
 
 /// Pieces of a gmsh mesh that share no face move by themselves; nothing keeps them from passing through each other.
-void Validator::pieces() {
-  const HexahedralMesh& mesh = *solid_->mesh();
-  const Node& node = *draft_.structure_node;
+void Validator::pieces(const Structure& one) {
+  const HexahedralMesh& mesh = *one.shape->mesh();
+  const Node& node = *one.node;
   const std::vector<int> piece = undex::pieces(mesh, JoinedBy::nodes);
   const int count = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
   if (count < 2) {
     const std::vector<int> parts = undex::pieces(mesh, JoinedBy::faces);
     if (const int most = *std::max_element(parts.begin(), parts.end()); most > 0)
       warn(node, "shape",
-           "structure.shape: the mesh falls into " + std::to_string(most + 1) +
+           one.path + ".shape: the mesh falls into " + std::to_string(most + 1) +
                " parts that hang together by edges or corners only, as by hinges; join them by faces if that is not meant");
     return;
   }
@@ -54,8 +87,8 @@ void Validator::pieces() {
         gap = here;
         at = mesh.nodes[i];
       }
-  const double thickness = solid_->thickness();
-  const std::string what = "structure.shape: the mesh is in " + std::to_string(count) +
+  const double thickness = one.shape->thickness();
+  const std::string what = one.path + ".shape: the mesh is in " + std::to_string(count) +
                            " pieces that share no node; the first and the next are " + rounded(std::max(gap, 0.0)) +
                            " m apart at " + text(at, 3) + " m";
   if (gap < 0.01 * thickness)
@@ -70,7 +103,7 @@ void Validator::wet_face(const std::string& path, const Node& node, const std::v
   double nearest = points.empty() ? 0.0 : 1e300;
   for (const Vec3& x : points)
     if (in_kept_part(x)) nearest = std::min(nearest, distance_to_water(x));
-  const std::string what = path == "structure" ? "structure" : "solid";
+  const std::string what = path.starts_with("structure") ? "structure" : "solid";
   if (nearest > near())
     complain(node, "wet",
              path + ".wet: the face '" + face + "' touches no water: no body comes within two spacings (" + rounded(near()) +
@@ -139,7 +172,8 @@ void Validator::halved(const std::string& path, const Node& node, const Primitiv
     if (!fluid_.symmetry.axis[axis] || low >= 0 || (halves && std::abs(low + high) <= 1e-9 * (high - low))) continue;
     complain(node, "shape",
              path + ": the symmetry plane " + "xyz"[axis] + " = 0 does not halve it (it runs from " + rounded(low) + " to " +
-                 rounded(high) + " m); centre the whole " + (path == "structure" ? "structure" : "solid") + " on the plane");
+                 rounded(high) + " m); centre the whole " + (path.starts_with("structure") ? "structure" : "solid") +
+                 " on the plane");
   }
 }
 

@@ -27,7 +27,7 @@ std::string plane(int axis) { return std::string("the symmetry plane ") + "xyz"[
 void Validator::mirrors() {
   for (std::size_t i = 0; i < parts_.size(); ++i)
     if (usable_[i]) mirrored(parts_[i], is_fluid(i), is_fluid(i) ? &fluid_.bodies[i] : nullptr);
-  mirrored_structure();
+  for (const Structure& each : structures_) mirrored(each);
 }
 
 void Validator::mirrored(const Part& one, bool fluid, const sph::Body* body) {
@@ -85,31 +85,31 @@ void Validator::mirrored_burn(const sph::Body& body, const Node& node) {
 }
 
 /// A mesh is bonded to its mirror image: its nodes on the plane stay there.
-void Validator::mirrored_structure() {
-  if (!solid_ || dimension_ != 3) return;
-  const Node& node = *draft_.structure_node;
-  const Bounds extent = solid_->extent();
+void Validator::mirrored(const Structure& one) {
+  if (!one.shape || dimension_ != 3) return;
+  const Node& node = *one.node;
+  const Bounds extent = one.shape->extent();
   const double size = (extent.high - extent.low).maxCoeff();
   int away = 1;
   for (int a = 0; a < 3; ++a) {
     if (!fluid_.symmetry.axis[a]) continue;
     if (extent.low[a] > 1e-6 * size) {
       away *= 2;
-    } else if (scene_.structure->initial_velocity[a] != 0) {
+    } else if (one.settings->initial_velocity[a] != 0) {
       complain(
           node, "velocity",
-          "structure.velocity has a component across " + plane(a) +
+          one.path + ".velocity has a component across " + plane(a) +
               ", which the structure touches: it is bonded to its mirror image there; leave out that component or the plane");
-    } else if (turns_within(scene_.structure->spin, a)) {
+    } else if (turns_within(one.settings->spin, a)) {
       complain(
           node, "spin",
-          "structure.spin has a component about an axis within " + plane(a) +
+          one.path + ".spin has a component about an axis within " + plane(a) +
               ", which the structure touches: it is bonded to its mirror image there; leave out that component or the plane");
     }
   }
   if (away > 1)
     warn(node, "shape",
-         "structure.shape lies off the symmetry planes: the whole scene has " + std::to_string(away) +
+         one.path + ".shape lies off the symmetry planes: the whole scene has " + std::to_string(away) +
              " of it, mirror images of each other; leave the planes out if one is meant");
 }
 

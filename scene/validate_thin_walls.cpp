@@ -82,11 +82,13 @@ void Validator::thin_walls() {
   const auto is_dry = [](const std::vector<std::string>& wet, const std::string& face) {
     return !wet.empty() && std::find(wet.begin(), wet.end(), face) == wet.end();
   };
-  if (solid_ && dimension_ == 3 && scene_.structure)
-    for (const std::string& face : solid_->faces({false, false, false}))
-      if (is_dry(scene_.structure->wet_faces, face))
-        look([&](const Vec3& x) { return -solid_->signed_distance(x); }, solid_->face_points(face), "structure",
-             *draft_.structure_node, "add its face '" + face + "' to structure.wet; else ");
+  for (const Structure& each : structures_) {
+    if (!each.shape || dimension_ != 3) continue;
+    for (const std::string& face : each.shape->faces({false, false, false}))
+      if (is_dry(each.settings->wet_faces, face))
+        look(each.depth(), each.shape->face_points(face), each.path, *each.node,
+             "add its face '" + face + "' to " + each.path + ".wet; else ");
+  }
   for (std::size_t i = 0; i < scene_.solids.bodies.size(); ++i) {
     const auto& solid = scene_.solids.bodies[i];
     for (const std::string& face : shape_faces(solid.shape.base, dimension_, {false, false, false}))

@@ -37,6 +37,23 @@ class Validator {
     std::string path() const { return list + '.' + name; }
   };
 
+  /// A body of finite elements.
+  struct Structure {
+    std::string path;
+    const fem::Settings* settings;
+    const Node* node;
+    std::optional<StructureShape> shape;  ///< nothing where it was not good
+
+    /// In a sentence.
+    std::string named() const { return path == "structure" ? "the structure" : path; }
+    Depth depth() const {
+      return [this](const Vec3& x) { return -shape->signed_distance(x); };
+    }
+    NearDepth near_depth() const {
+      return [this](const Vec3& x, double) { return -shape->signed_distance(x); };
+    }
+  };
+
   // validate.cpp
   void names();
   void parts();
@@ -68,8 +85,10 @@ class Validator {
   void radiating(const sph::Wall& wall, const Node& node);
 
   // validate_structure.cpp
-  void structure();
-  void pieces();
+  void structures();
+  void structure(const Structure& one);
+  void apart(const Structure& first, const Structure& later);
+  void pieces(const Structure& one);
   void wet_face(const std::string& path, const Node& node, const std::vector<Vec3>& points, const std::string& face);
   void solids();
   void planes();
@@ -78,7 +97,7 @@ class Validator {
   // validate_symmetry.cpp
   void mirrors();
   void mirrored(const Part& one, bool fluid, const sph::Body* body);
-  void mirrored_structure();
+  void mirrored(const Structure& one);
   void mirrored_burn(const sph::Body& body, const Node& node);
 
   // validate_motion.cpp
@@ -95,7 +114,7 @@ class Validator {
 
   // validate_sizes.cpp
   void sizes();
-  void size_of_structure(double of_bodies);
+  void size_of(const Structure& one, double of_bodies);
   void size_of_walls(double of_bodies);
   void counts();
 
@@ -116,6 +135,7 @@ class Validator {
 
   // validate_probes.cpp
   double distance_to_solids(const Vec3& x) const;
+  void on_structure(const Probe& probe, const Node& node);
   void probe(const Probe& probe, const Node& node);
 
   Draft& draft_;
@@ -123,7 +143,7 @@ class Validator {
   sph::Settings& fluid_;
   int dimension_;
   Bounds kept_;
-  std::optional<StructureShape> solid_;  // of the [structure]
+  std::vector<Structure> structures_;
   std::vector<Part> parts_;
   std::vector<bool> usable_;  // beside parts_: can it be compared with others?
 };

@@ -496,7 +496,8 @@ def plot_mid_plane(run, wanted_us):
         section = Section(run, positions(file[steps[0]]), run.setting("resolution.spacing"))
         if section.dimension < 2:
             return plot_profiles(run, file, steps, times, wanted_us)
-        structure = structure_sections(run.folder / "fields")
+        structures = [structure_sections(run.folder / "fields", index.name.removesuffix(".hdf.series"))
+                      for index in sorted((run.folder / "fields").glob("structure*.hdf.series"))]
         obstacles = structure_sections(run.folder / "fields", "obstacles")
         chosen = nearest(times, [1e-6 * t for t in wanted_us])
         figure, axes = section.panels(len(chosen), float(section.extent[section.across] / section.extent[section.length]))
@@ -514,13 +515,13 @@ def plot_mid_plane(run, wanted_us):
             top = max(np.quantile(values[wet], 0.995) if wet.any() else 1.0, 1.0)
             shown = discs(axis, points[wet], width[wet], values[wet], clim=(0, top), cmap="turbo")
             discs(axis, points[~wet], width[~wet], facecolors="white")
-            if structure:
+            for structure in structures:
                 when, solid = min(structure, key=lambda entry: abs(entry[0] - times[i]))
                 if abs(when - times[i]) < 1e-6 and solid.is_file():
                     polygons = [1e3 * p for p in structure_polygons(solid, section.normal, section.axes, section.mirror)]
                     axis.add_collection(PolyCollection(polygons, facecolors="0.35", edgecolors="0.2", linewidths=0.2))
                     points = np.concatenate([points] + [1e-3 * p for p in polygons])
-                    grey = "; grey: structure"
+                    grey = "; grey: structure" + "s" * (len(structures) > 1)
             if obstacles:
                 when, surface = min(obstacles, key=lambda entry: abs(entry[0] - times[i]))
                 if abs(when - times[i]) < 1e-6 and surface.is_file():

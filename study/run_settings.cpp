@@ -67,6 +67,15 @@ Vec3 vector_at(const Node& table, const char* key) {
   return result;
 }
 
+/// What a body is round about; nothing where it is not round.
+std::optional<judge::Axis> axis_of(const Node& body) {
+  const Node* shape = body.find("shape");
+  if (!shape) return std::nullopt;
+  const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
+  if (type != "tube" && type != "rod" && type != "cylinder") return std::nullopt;
+  return judge::Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+}
+
 /// That of which energies are counted: whole rings and spheres are of space.
 int dimension_of(const Node& node) {
   if (node.kind != Node::Kind::text) return static_cast<int>(node.integer);
@@ -89,13 +98,17 @@ ResolvedScene read_resolved(const std::string& text, const std::string& file) {
       result.probe_order.push_back(name);
     }
   if (const Node* comparison = root.find("comparison")) result.compared_probe = text_at(*comparison, "probe");
-  // What a structure or, in particles, the first solid is round about.
-  const Node *body = root.find("structure"), *solids = root.find("solids");
-  if (!body && solids && !solids->items.empty()) body = &solids->items[0];
-  if (const Node* shape = body ? body->find("shape") : nullptr) {
-    const std::string type = text_at(*shape, "type"), axis = text_at(*shape, "axis");
-    if (type == "tube" || type == "rod" || type == "cylinder")
-      result.axis = judge::Axis{axis == "x" ? 0 : axis == "y" ? 1 : 2, vector_at(*shape, "center")};
+  // What all structures or, in particles, the first solid are round about.
+  const Node *body = root.find("structure"), *structures = root.find("structures"), *solids = root.find("solids");
+  if (structures && !structures->items.empty()) {
+    result.axis = axis_of(structures->items[0]);
+    for (const Node& each : structures->items)
+      if (axis_of(each) != result.axis) {
+        result.axis.reset();
+        break;
+      }
+  } else if (body || (solids && !solids->items.empty())) {
+    result.axis = axis_of(body ? *body : solids->items[0]);
   }
   return result;
 }

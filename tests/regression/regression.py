@@ -107,6 +107,11 @@ CASES = {
                        fields=[0.0, 20e-6, 40e-6],
                        extremes=["midline_outer.displacement_x", "midline_outer.velocity_x", "midline_outer.plastic_strain",
                                  "midline_outer.temperature"]),
+    "two_panels": Case("two_panels", 200 * US, {"resolution.spacing": 0.003, "start.kind": "plain", "output.history_interval": 0,
+                                                "structures.front.cells": "{radial = 17, along = 1}"},
+                       fields=[60e-6, 200e-6], interface=INTERFACE_COARSE,
+                       extremes=["front_face.pressure", "front_middle.displacement_z", "gap_middle.pressure", "back_middle.velocity_z",
+                                 "back_middle.plastic_strain"]),
     "taylor_bar_sph": solids("taylor_bar_sph", 20 * US, 0.0008, ["rear.displacement_z", "rim.displacement_x", "centre.temperature"]),
     "taylor_bar_sph_updated": solids("taylor_bar_sph", 20 * US, 0.0008, ["rear.displacement_z", "rim.displacement_x"],
                                      **{"solids.rod.description": "updated_lagrangian"}),
@@ -235,12 +240,15 @@ def check_fields(case, summary, folder):
             if not fields["density"].min() > 0 or fields["void_fraction"].min() < 0 or fields["void_fraction"].max() > 1:
                 found.append(f"particles at {time}: density or void fraction out of its range")
     if summary["cells"]:
-        steps = runs.structure_steps(folder)
-        same_times("structure", [time for time, _ in steps])
-        for time, path in steps:
-            sets = runs.datasets(path)
-            if len(sets["VTKHDF/Types"]) != summary["cells"] or "VTKHDF/PointData/displacement" not in sets:
-                found.append(f"{path.name}: not the whole structure")
+        several = summary.get("structures", [{"name": "", "cells": summary["cells"]}])
+        for structure in several:
+            stem = "structure" + "_" * (len(several) > 1) + structure["name"]
+            steps = runs.structure_steps(folder, stem)
+            same_times(stem, [time for time, _ in steps])
+            for time, path in steps:
+                sets = runs.datasets(path)
+                if len(sets["VTKHDF/Types"]) != structure["cells"] or "VTKHDF/PointData/displacement" not in sets:
+                    found.append(f"{path.name}: not the whole structure")
     return found
 
 

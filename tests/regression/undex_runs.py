@@ -74,10 +74,10 @@ def particle_steps(folder, name="particles"):
     return steps
 
 
-def structure_steps(folder):
-    """[(time, path)] of the structure's snapshots, from their index."""
+def structure_steps(folder, stem="structure"):
+    """[(time, path)] of a structure's snapshots, from their index."""
     fields = pathlib.Path(folder) / "fields"
-    index = json.loads(next(fields.glob("*.hdf.series")).read_text())
+    index = json.loads((fields / f"{stem}.hdf.series").read_text())
     return [(float(entry["time"]), fields / entry["name"]) for entry in index["files"]]
 
 

@@ -115,9 +115,9 @@ TEST(RunFolder, ANewRunStandsAlone) {
                            "fields/solids.h5part",
                            "fields/solids2.h5part",
                            "fields/structure_00000.hdf",
-                           "fields/structure2_00007.hdf",
+                           "fields/structure_front_00007.hdf",
                            "fields/structure.hdf.series",
-                           "fields/structure2.hdf.series",
+                           "fields/structure_front.hdf.series",
                            "pictures/energy.png",
                            "pictures/solids_speed.png",
                            "history/empty.csv"})

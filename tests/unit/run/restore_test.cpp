@@ -94,6 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
             {{spacing, "0.005"},
              {"structure.element", "\"shell\""},
              {"structure.cells", "{through = 1, around = 48, along = 36}"}}},
+        Cut{"two_structures", "two_panels", {{spacing, "0.004"}}},
         Cut{"one_system", "al_tube_sph", {{spacing, "0.005"}, {"solids.tube.spacing", "0.003175"}}},
         Cut{"one_system_lined",
             "al_tube_sph",

@@ -57,8 +57,7 @@ TEST(Spin, WhatIsNoMirrorImageIsRefused) {
     }
   };
   const std::string half = head + "[symmetry]\nplanes = [\"x\"]\n";
-  const std::string ball =
-      "[[bodies]]\nname = \"ball\"\nmaterial = \"water-tait\"\nshape = {type = \"sphere\", radius = 0.05}\n";
+  const std::string ball = "[[bodies]]\nname = \"ball\"\nmaterial = \"water-tait\"\nshape = {type = \"sphere\", radius = 0.05}\n";
   EXPECT_NO_THROW(read_text(half + ball + "spin = [10, 0, 0]\n"));
   says(half + ball + "spin = [10, 0, 1]\n", "bodies.ball: its spin about an axis within the symmetry plane x = 0");
   const std::string plate = R"([structure]

@@ -23,7 +23,7 @@ TEST(Overrides, NumbersListsWordsAndTables) {
                                                {"probes.wall.quantities", "[\"pressure\"]"}});
   EXPECT_EQ(scene.fluid.lattice.spacing, 0.001);
   EXPECT_EQ(scene.fluid.symmetry.axis, (std::array<bool, 3>{false, false, false}));
-  EXPECT_TRUE(scene.structure->symmetry_axes.empty());
+  EXPECT_TRUE(scene.structures.at(0).symmetry_axes.empty());
   EXPECT_EQ(scene.fluid.numerics.kernel, sph::KernelName::gaussian);
   EXPECT_EQ(scene.title, "two words");
   EXPECT_FALSE(scene.output.structure_fields);
@@ -33,8 +33,8 @@ TEST(Overrides, NumbersListsWordsAndTables) {
   const auto& petn = std::get<materials::Jwl>(scene.fluid.bodies[0].material.law).parameters();
   EXPECT_EQ(petn.E0, 5e6) << "a parameter of a material given by name";
   EXPECT_EQ(petn.A, 617e9);
-  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).A, 1e8);
-  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).B, 596e6);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structures.at(0).material.flow).A, 1e8);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structures.at(0).material.flow).B, 596e6);
   EXPECT_EQ(scene.probes[0].quantities, (std::vector<std::string>{"pressure"}));
 }
 

@@ -36,11 +36,11 @@ TEST(Read, CoupledTubeWithItsDefaults) {
   EXPECT_EQ(std::get<Sphere>(water.shape.removed[0]).radius, 0.0072);
   EXPECT_EQ(std::get<Cylinder>(water.shape.base).axis, 2);
 
-  ASSERT_TRUE(scene.structure.has_value());
-  const auto& tube = std::get<fem::TubeMesh>(scene.structure->mesh);
+  ASSERT_EQ(scene.structures.size(), 1u);
+  const auto& tube = std::get<fem::TubeMesh>(scene.structures.at(0).mesh);
   EXPECT_EQ(tube.cells_around, 32);
-  EXPECT_EQ(scene.structure->symmetry_axes, (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(scene.structure->material.name, "al-5083-h116");
+  EXPECT_EQ(scene.structures.at(0).symmetry_axes, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(scene.structures.at(0).material.name, "al-5083-h116");
   ASSERT_EQ(scene.probes.size(), 2u);
   EXPECT_EQ(scene.probes[1].quantities.size(), 5u) << "without quantities, all of them";
 }
@@ -99,29 +99,29 @@ flow = {law = "linear_hardening", Y0 = 3e8, H = 1e9}
   EXPECT_EQ(water.parameters().B, 3e8);
   EXPECT_EQ(water.parameters().N, 7.15);
   EXPECT_EQ(scene.fluid.bodies[1].material.name, "my-water");
-  const auto& flow = std::get<materials::JohnsonCook>(scene.structure->material.flow);
+  const auto& flow = std::get<materials::JohnsonCook>(scene.structures.at(0).material.flow);
   EXPECT_EQ(flow.A, 1e8);
   EXPECT_EQ(flow.B, 596e6);
-  EXPECT_EQ(scene.structure->material.name, "weak");
+  EXPECT_EQ(scene.structures.at(0).material.name, "weak");
 }
 
 TEST(Read, ElasticConstants) {
   const Scene scene = read_text(with(coupled_tube, "material = \"al-5083-h116\"",
                                      "material = {rho0 = 7800, young_modulus = 200e9, poisson_ratio = 0.25, "
                                      "flow = {law = \"elastic\"}}"));
-  EXPECT_DOUBLE_EQ(scene.structure->material.shear_modulus, 80e9);
-  EXPECT_DOUBLE_EQ(std::get<materials::LinearPressure>(scene.structure->material.pressure).bulk_modulus, 400e9 / 3);
+  EXPECT_DOUBLE_EQ(scene.structures.at(0).material.shear_modulus, 80e9);
+  EXPECT_DOUBLE_EQ(std::get<materials::LinearPressure>(scene.structures.at(0).material.pressure).bulk_modulus, 400e9 / 3);
 }
 
 TEST(Read, DamageTakesTheTemperaturesOfItsFlowStress) {
   const Scene scene = read_text(with(coupled_tube, "material = \"al-5083-h116\"",
                                      "material = {base = \"al-5083-h116\", flow = {T_room = 300, rate0 = 0.1}, "
                                      "damage = {D1 = 0.1, D2 = 0.2, D3 = -1.5, D4 = 0, D5 = 0, rate0 = 2}}"));
-  const auto& damage = scene.structure->material.damage.value();
+  const auto& damage = scene.structures.at(0).material.damage.value();
   EXPECT_EQ(damage.T_melt, 893);
   EXPECT_EQ(damage.T_room, 300);
   EXPECT_EQ(damage.rate0, 2);
-  EXPECT_FALSE(scene.structure->material.spall.has_value());
+  EXPECT_FALSE(scene.structures.at(0).material.spall.has_value());
 }
 
 TEST(Read, InstantaneousBurnHasTwoSpellings) {
@@ -164,7 +164,7 @@ TEST(Read, SchemesBringTheirDefaults) {
 
 TEST(Read, CellSizeGivesTheCountsOfTheWholeTube) {
   const Scene scene = read_text(with(coupled_tube, "cells = {through = 2, around = 32, along = 20}", "cell_size = 0.003"));
-  const auto& tube = std::get<fem::TubeMesh>(scene.structure->mesh);
+  const auto& tube = std::get<fem::TubeMesh>(scene.structures.at(0).mesh);
   EXPECT_EQ(tube.cells_through, 2);
   EXPECT_EQ(tube.cells_around, 100) << "2 pi 47 mm / 3 mm = 98.4, rounded up to quarters";
   EXPECT_EQ(tube.cells_along, 68) << "200 mm / 3 mm = 66.7, rounded up to halves";
@@ -175,36 +175,36 @@ TEST(Read, OtherStructures) {
   const Scene rod = read_text(frame +
                               "shape = {type = \"rod\", radius = 0.0032, low = 0, high = 0.0324}\n"
                               "supports = [{face = \"low\", fixed = [\"z\"]}]\n");
-  EXPECT_EQ(std::get<fem::RodMesh>(rod.structure->mesh).cells_radial, 6);
-  EXPECT_EQ(rod.structure->supports[0].fixed, (std::array<bool, 3>{false, false, true}));
-  EXPECT_EQ(rod.structure->initial_velocity, Vec3(0, 0, -227));
+  EXPECT_EQ(std::get<fem::RodMesh>(rod.structures.at(0).mesh).cells_radial, 6);
+  EXPECT_EQ(rod.structures.at(0).supports[0].fixed, (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(rod.structures.at(0).initial_velocity, Vec3(0, 0, -227));
   const Scene plate = read_text(frame +
                                 "shape = {type = \"plate\", low = [0, 0, 0], high = [1, 2, 0.1]}\n"
                                 "cells = {z = 4}\n[[structure.loads]]\nface = \"z_high\"\ntime = [0]\npressure = [1e6]\n");
-  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{20, 40, 4}));
-  EXPECT_EQ(plate.structure->loads[0].pressure[0], 1e6);
+  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structures.at(0).mesh).cells, (std::array<int, 3>{20, 40, 4}));
+  EXPECT_EQ(plate.structures.at(0).loads[0].pressure[0], 1e6);
   const Scratch scratch;
   std::filesystem::copy_file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh", scratch.folder() / "mesh.msh");
   const Scene gmsh = read(scratch.write(frame + "shape = {type = \"gmsh\", path = \"mesh.msh\"}\n"));
-  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).path, scratch.folder() / "mesh.msh");
-  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structure->mesh).read->cells.size(), 2u);
+  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structures.at(0).mesh).path, scratch.folder() / "mesh.msh");
+  EXPECT_EQ(std::get<fem::GmshMesh>(gmsh.structures.at(0).mesh).read->cells.size(), 2u);
 }
 
 TEST(Read, ShellsAreOneCellThick) {
   const std::string frame = "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\n";
   const Scene ring =
       read_text(frame + "shape = {type = \"ring\", inner_radius = 0.1, outer_radius = 0.105, low = 0, high = 0.02}\n");
-  EXPECT_EQ(ring.structure->element, fem::ElementKind::shell);
-  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_through, 1);
-  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structure->mesh).cells_along, 4);
+  EXPECT_EQ(ring.structures.at(0).element, fem::ElementKind::shell);
+  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structures.at(0).mesh).cells_through, 1);
+  EXPECT_EQ(std::get<fem::TubeMesh>(ring.structures.at(0).mesh).cells_along, 4);
   const Scene plate = read_text(frame +
                                 "shape = {type = \"plate\", low = [0, 0, 0], high = [0.1, 0.01, 0.2]}\npoints_through = 7\n"
                                 "[[planes]]\naxis = \"y\"\nposition = 1\nfree_side = \"below\"\n");
-  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structure->mesh).cells, (std::array<int, 3>{10, 1, 20}));
-  EXPECT_EQ(plate.structure->points_through, 7);
-  EXPECT_EQ(plate.structure->planes[0].axis, 1);
-  EXPECT_EQ(plate.structure->planes[0].position, 1.0);
-  EXPECT_FALSE(plate.structure->planes[0].body_above);
+  EXPECT_EQ(std::get<fem::PlateMesh>(plate.structures.at(0).mesh).cells, (std::array<int, 3>{10, 1, 20}));
+  EXPECT_EQ(plate.structures.at(0).points_through, 7);
+  EXPECT_EQ(plate.structures.at(0).planes[0].axis, 1);
+  EXPECT_EQ(plate.structures.at(0).planes[0].position, 1.0);
+  EXPECT_FALSE(plate.structures.at(0).planes[0].body_above);
 }
 
 TEST(Read, FolderOrFileAndItsName) {

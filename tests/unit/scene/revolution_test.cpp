@@ -69,12 +69,12 @@ TEST(Revolution, SolversAreGivenTheMeridian) {
 TEST(Revolution, PlanesThroughTheAxisGo) {
   const scene::Scene read = read_text(coupled_tube, {axisymmetric});
   EXPECT_EQ(read.fluid.symmetry.axis, (std::array{false, false, true}));
-  EXPECT_EQ(read.structure->symmetry_axes, std::vector<int>{2});
+  EXPECT_EQ(read.structures.at(0).symmetry_axes, std::vector<int>{2});
   const scene::Scene solved = scene::for_solvers(read);
   EXPECT_EQ(solved.fluid.symmetry.axis, (std::array{true, true, false}));
-  EXPECT_TRUE(solved.structure->axisymmetric);
-  EXPECT_EQ(solved.structure->symmetry_axes, std::vector<int>{1});
-  EXPECT_EQ(std::get<fem::TubeMesh>(solved.structure->mesh).axis, 1);
+  EXPECT_TRUE(solved.structures.at(0).axisymmetric);
+  EXPECT_EQ(solved.structures.at(0).symmetry_axes, std::vector<int>{1});
+  EXPECT_EQ(std::get<fem::TubeMesh>(solved.structures.at(0).mesh).axis, 1);
 }
 
 TEST(Revolution, VolumesAreExact) {
@@ -229,9 +229,9 @@ TEST(Revolution, MeridiansOfGmshAreRead) {
     try {
       const scene::Scene read = scene::test::read(scratch.write(text), overrides);
       const scene::Scene solved = scene::for_solvers(read);
-      EXPECT_TRUE(solved.structure->axisymmetric);
-      EXPECT_EQ(std::get<fem::GmshMesh>(solved.structure->mesh).read->cells.size(), 2u);
-      EXPECT_EQ(solved.structure->supports[0].fixed, (std::array{false, true, true}));
+      EXPECT_TRUE(solved.structures.at(0).axisymmetric);
+      EXPECT_EQ(std::get<fem::GmshMesh>(solved.structures.at(0).mesh).read->cells.size(), 2u);
+      EXPECT_EQ(solved.structures.at(0).supports[0].fixed, (std::array{false, true, true}));
       return "";
     } catch (const SceneError& error) {
       return error.what();
@@ -275,11 +275,11 @@ element = "shell"
 material = "al-5083-h116"
 )";
   const scene::Scene read = read_text(disc);
-  const auto& rod = std::get<fem::RodMesh>(read.structure->mesh);
+  const auto& rod = std::get<fem::RodMesh>(read.structures.at(0).mesh);
   EXPECT_EQ(rod.cells_along, 1);
   EXPECT_EQ(rod.cells_radial, 13);
   const auto halved = read_text(with(disc, "low = 0, high", "low = -0.004, high"), {{"symmetry.planes", "[\"z\"]"}});
-  EXPECT_EQ(std::get<fem::RodMesh>(halved.structure->mesh).cells_along, 2);
+  EXPECT_EQ(std::get<fem::RodMesh>(halved.structures.at(0).mesh).cells_along, 2);
   expect(disc, {{"dimension", "3"}}, "or of a rod with dimension = \"axisymmetric\"");
 }
 

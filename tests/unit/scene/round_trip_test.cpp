@@ -390,6 +390,22 @@ motion = "prescribed"
 direction = [1, 0, 0]
 time = [0, 1e-4]
 speed = [1, 2]
+)",
+                                    R"(end_time = 1e-4
+[[structures]]
+name = "plate"
+shape = {type = "plate", low = [0, 0, 0], high = [1, 1, 0.01]}
+material = "steel-4340"
+supports = [{face = "x_low"}]
+[[structures]]
+shape = {type = "rod", axis = "y", center = [1, 0, 2], radius = 0.1, low = 0, high = 1}
+material = "copper-ofhc"
+radial = {speed = 3, radius = 0.1, about = "y", center = [1, 0, 2], power = 1}
+loads = [{face = "low", time = [0], pressure = [1e5]}, {face = "high", time = [0], pressure = [2e5]}]
+[[probes]]
+name = "in_rod"
+structure = "1"
+point = [1, 0.5, 2]
 )"};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
@@ -503,12 +519,12 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(scene.fluid.bodies[2].material.rho0, 999);
   EXPECT_EQ(scene.fluid.walls[0].faces.at("low"), sph::FaceCondition::open);
   EXPECT_EQ(scene.fluid.walls[0].faces.at("high"), sph::FaceCondition::no_slip);
-  EXPECT_EQ(scene.structure->supports[0].fixed, (std::array<bool, 3>{true, false, true}));
-  EXPECT_EQ(scene.structure->material.T_room, 300);
-  EXPECT_EQ(std::get<materials::MieGruneisenPressure>(scene.structure->material.pressure).C, 5000);
-  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structure->material.flow).rate0, 2);
-  EXPECT_EQ(scene.structure->loads[0].pressure[1], 2e5);
-  EXPECT_EQ(scene.structure->courant, 0.7);
+  EXPECT_EQ(scene.structures.at(0).supports[0].fixed, (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(scene.structures.at(0).material.T_room, 300);
+  EXPECT_EQ(std::get<materials::MieGruneisenPressure>(scene.structures.at(0).material.pressure).C, 5000);
+  EXPECT_EQ(std::get<materials::JohnsonCook>(scene.structures.at(0).material.flow).rate0, 2);
+  EXPECT_EQ(scene.structures.at(0).loads[0].pressure[1], 2e5);
+  EXPECT_EQ(scene.structures.at(0).courant, 0.7);
   EXPECT_FALSE(scene.coupling.free_slip);
   EXPECT_EQ(scene.coupling.window, 2);
   EXPECT_EQ(scene.output.field_times, (std::vector<double>{1e-6, 2e-6}));
@@ -560,7 +576,7 @@ TEST(RoundTrip, SolidsHoldTheValuesGiven) {
 TEST(RoundTrip, KeepsFlowStressAndFailure) {
   const auto solid = [](std::size_t which) {
     const Scratch scratch;
-    return read(scratch.write(to_toml(read(scratch.write(rich[which]))), "resolved.toml")).structure->material;
+    return read(scratch.write(to_toml(read(scratch.write(rich[which]))), "resolved.toml")).structures.at(0).material;
   };
   const materials::Solid tube = solid(4);
   const auto& flow = std::get<materials::ZerilliArmstrong>(tube.flow);
