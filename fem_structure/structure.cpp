@@ -243,9 +243,9 @@ struct Structure::Implementation {
     if (settings.radial)
       for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.radial->at(grid.nodes[i]);
     if (!settings.spin.isZero(0.0)) {
-      Bounds extent;
-      for (const Vec3& x : grid.nodes) extent.include(x);
-      for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.spin.cross(grid.nodes[i] - 0.5 * (extent.low + extent.high));
+      Bounds box;
+      for (const Vec3& x : grid.nodes) box.include(x);
+      for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.spin.cross(grid.nodes[i] - 0.5 * (box.low + box.high));
     }
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)

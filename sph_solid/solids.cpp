@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
 #include "sph_solid/meridian.hpp"
+#include "sph_solid/solid_faces.hpp"
 #include "sph_solid/solid_lattice.hpp"
 #include "sph_solid/solids_implementation.hpp"
 #include "sph_fluid/pairs/sums.hpp"
