@@ -199,7 +199,11 @@ void Simulation::take_start(const scene::Scene& scene) {
 }
 
 double Simulation::time() const { return line_ ? line_->time() : fluid_ ? fluid_->time() : bodies_.front()->time(); }
-long Simulation::steps() const { return line_ ? line_->steps() : fluid_ ? fluid_->steps() : bodies_.front()->steps(); }
+long Simulation::steps() const {
+  if (line_) return line_->steps();
+  if (fluid_) return fluid_->steps();
+  return group_ ? group_->steps() : bodies_.front()->steps();
+}
 
 void Simulation::advance(double end) {
   last_ = driver_->advance(end);

@@ -326,14 +326,16 @@ def with_mirror_images(shapes, plane_axes, mirror):
 
 
 def structure_polygons(path, normal, plane_axes, mirror):
-    """The cells of a structure that the plane through the origin cuts (or touches), as quadrilaterals in the plane."""
+    """The cells of a structure that the plane through the origin cuts (or touches), as polygons in the plane; of a meridian all."""
     import h5py
 
     # Edges of a VTK hexahedron.
     edges = np.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)])
     with h5py.File(path) as file:
         points = file["VTKHDF/Points"][:].astype(float)
-        cells = file["VTKHDF/Connectivity"][:].reshape(-1, 8)
+        cells = file["VTKHDF/Connectivity"][:].reshape(len(file["VTKHDF/Types"]), -1)
+    if cells.shape[1] == 4:
+        return with_mirror_images([points[cell][:, plane_axes] for cell in cells], plane_axes, mirror)
     height = points[:, normal]
     size = np.ptp(height[cells], axis=1)
     low, high = height[cells].min(axis=1), height[cells].max(axis=1)

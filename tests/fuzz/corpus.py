@@ -21,7 +21,7 @@ RECORD = {
 }
 OVERRIDES = ["resolution.spacing=0.0015", "symmetry.planes=[]", "bodies.water.material=water-steinberg", "structure.material=al-5086-o",
              "bodies.charge.material.E0=5.5e6", "probes.midline.point=[0, 0.1, 0]", "walls.tank.faces.high=open", "bodies.0.shape.low=0",
-             "solids.0.velocity=[1, 2, 3]", "start.kind=plain", "scheme.name=paper", "threads=2", "end_time=1e-5", "gravity=[0,0,-9.81]"]
+             "solids.0.velocity=[1, 2, 3]", "structures.back.material=steel-s7", "start.kind=plain", "scheme.name=paper", "threads=2", "end_time=1e-5", "gravity=[0,0,-9.81]"]
 
 
 def two_cubes(version):

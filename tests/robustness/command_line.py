@@ -1351,7 +1351,7 @@ class Telling(Case):
                     self.assertIn(word, finished.stdout)
                 for body in re.findall(r'^\[\[bodies\]\]\nname = "(.*?)"', (scene / "case.toml").read_text(), re.M):
                     self.assertRegex(finished.stdout, rf"{body} +\d+ particles")
-                if "[structure]" in (scene / "case.toml").read_text():
+                if re.search(r"^\[structure\]|^\[\[structures\]\]", (scene / "case.toml").read_text(), re.M):
                     self.assertRegex(finished.stdout, r"\d+ cells")
                 self.assertEqual(contents(self.here), {})
 

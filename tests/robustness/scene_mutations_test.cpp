@@ -157,23 +157,9 @@ TEST_F(SceneMutations, ScenesSpliced) {
 }
 
 TEST_F(SceneMutations, WildOverrides) {
-  const std::vector<std::string> words{"bodies",
-                                       "water",
-                                       "0",
-                                       "1",
-                                       "shape",
-                                       "low",
-                                       "material",
-                                       "burn",
-                                       "structure",
-                                       "cells",
-                                       "symmetry",
-                                       "planes",
-                                       "resolution",
-                                       "spacing",
-                                       "x",
-                                       "",
-                                       "99999999999999999999",
+  const std::vector<std::string> words{"bodies",   "water",      "0",         "1",          "shape", "low",
+                                       "material", "burn",       "structure", "structures", "cells", "symmetry",
+                                       "planes",   "resolution", "spacing",   "x",          "",      "99999999999999999999",
                                        "probes"};
   const std::vector<std::string> values{
       "1", "-1", "[]",  "{}", "[1, 2]", "word", "\"", "{a = 1}", "1\n", "[\"x\"]", "inf", "\"petn\"", "{base = \"petn\"}",
@@ -318,6 +304,8 @@ TEST_F(SceneMutations, DeepAndEmpty) {
   for (int i = 0; i < 2000; ++i) dotted += ".a";
   survives(dotted + " = 1");
   survives("end_time = 1\n[[bodies]]\n[[bodies]]\n[[probes]]\n[[walls]]\n[structure]\n");
+  survives("end_time = 1\n[[bodies]]\n[[structures]]\n[[structures]]\n[structure]\n");
+  survives("end_time = 1\nstructures = 3\n[coupling]\n");
 }
 
 }  // namespace

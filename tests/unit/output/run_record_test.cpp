@@ -82,6 +82,37 @@ TEST(RunRecord, ObstaclesReadBack) {
   EXPECT_EQ(read.obstacles[1].impulse, (std::vector<double>{1, 2}));
 }
 
+TEST(RunRecord, StructuresReadBack) {
+  const TemporaryFolder folder;
+  RunRecord record = sample();
+  EXPECT_FALSE(nlohmann::json::parse(to_json(record)).contains("structures"));
+  record.structures = {{.name = "front",
+                        .cells = 40,
+                        .steps = 1000,
+                        .kinetic = 1,
+                        .elastic = 2,
+                        .plastic = 3,
+                        .viscous = 4,
+                        .received = 5,
+                        .external = 6,
+                        .energy_error = 7e-6,
+                        .impulse = {8, 9, 10}},
+                       {}};
+  record.structures[1].kinetic = std::nan("");
+  write_summary(folder.path / "summary.json", record);
+  const RunRecord read = read_summary(folder.path / "summary.json");
+  ASSERT_EQ(read.structures.size(), 2u);
+  const StructureRecord& front = read.structures[0];
+  EXPECT_EQ(front.name, "front");
+  EXPECT_EQ(front.cells, 40);
+  EXPECT_EQ(front.steps, 1000);
+  EXPECT_EQ((std::vector<double>{front.kinetic, front.elastic, front.plastic, front.viscous, front.received, front.external}),
+            (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(front.energy_error, 7e-6);
+  EXPECT_EQ(front.impulse, (std::vector<double>{8, 9, 10}));
+  EXPECT_TRUE(std::isnan(read.structures[1].kinetic));
+}
+
 TEST(RunRecord, WhatDidNotHappenIsNull) {
   const auto json = nlohmann::json::parse(to_json(sample()));
   EXPECT_TRUE(json["metrics"]["collapse_s"].is_null());

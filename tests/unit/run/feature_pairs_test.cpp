@@ -25,6 +25,7 @@ struct Column {
   enum class Start { plain, plane_wave, spherical, burning } start = Start::plain;
   bool mirrored = true, obstacle = false, gravity = false, around = false, pushed = false, held = false, landing = false;
   bool flying = false;
+  bool second = false;  // one more plate, water between
   double half_width = 8, depth = 16;
   std::string walls = "free_slip";  // "none", "no_slip", "open below", "radiating below"
   std::string water = "\"water-tait\"", plate_material = "\"al-5083-h116\"";
@@ -69,6 +70,8 @@ void Column::describe_fluid(std::ostream& out) const {
       out << "material = \"petn\"\nburn = {model = \"programmed\", initiation = " << point(0, -0.5 * depth) << "}\n";
     else out << "material = {law = \"barotropic_gas\", rho0 = 1400, p0 = 1e8, gamma = 2}\n";
   }
+  if (second && elements())
+    out << "[[bodies]]\nname = \"gap\"\nshape = " << box(4, 14) << "\nmaterial = " << water << "\npressure = 1e6\n";
   if (obstacle)
     out << "[[obstacles]]\nname = \"ball\"\nshape = {type = \"sphere\", radius = 0.0052, center = " << point(0, -0.5 * depth)
         << "}\nmotion = \"free\"\ndensity = 2700\nvelocity = " << point(0, 1e4) << '\n';  // 10 m/s
@@ -81,14 +84,15 @@ void Column::describe_fluid(std::ostream& out) const {
 }
 
 void Column::describe_plate(std::ostream& out) const {
-  const std::string wet = "[\"" + end("low") + "\"]";
+  const std::string wet = second && elements() ? "[\"" + end("low") + "\", \"" + end("high") + "\"]" : "[\"" + end("low") + "\"]";
   std::string after;
   if (elements()) {
     std::string shape = "{type = \"plate\", low = " + point(-half_width, 0) + ", high = " + point(half_width, 4) + "}";
     std::string cells = std::string("{x = 4, y = 4, z = ") + (plate == Plate::shell ? "1}" : "2}");
     if (round) shape = box(0, 4).replace(9, 8, "rod"), cells = "{radial = 4, along = 2}";
-    out << "[structure]\nshape = " << shape << "\nelement = \"" << (plate == Plate::shell ? "shell" : "hexahedron")
-        << "\"\ncells = " << cells << "\ncourant = 0.25\nmaterial = " << plate_material << "\nwet = " << wet << "\nsupports = [";
+    out << (second ? "[[structures]]" : "[structure]") << "\nshape = " << shape << "\nelement = \""
+        << (plate == Plate::shell ? "shell" : "hexahedron") << "\"\ncells = " << cells
+        << "\ncourant = 0.25\nmaterial = " << plate_material << "\nwet = " << wet << "\nsupports = [";
     if (round) out << "{face = \"side\", fixed = [\"x\", \"y\"]}";
     else if (mirrored) out << "{face = \"x_high\", fixed = [\"x\"]}, {face = \"y_high\", fixed = [\"y\"]}";
     if (held) out << (mirrored || round ? ", " : "") << "{face = \"" << end("high") << "\", fixed = [\"z\"]}";
@@ -100,6 +104,15 @@ void Column::describe_plate(std::ostream& out) const {
     after = "[solid_scheme]\ncourant = 0.1\n";
   }
   if (flying) out << "velocity = " << point(0, 1e5) << '\n';  // 100 m/s
+  if (second && elements()) {
+    std::string shape = "{type = \"plate\", low = " + point(-half_width, 14) + ", high = " + point(half_width, 17) + "}";
+    if (round) shape = box(14, 17).replace(9, 8, "rod");
+    out << "[[structures]]\nshape = " << shape << "\ncells = " << (round ? "{radial = 3, along = 1}" : "{x = 2, y = 2, z = 1}")
+        << "\ncourant = 0.25\nmaterial = \"steel-4340\"\nwet = [\"" << end("low") << "\"]\nsupports = [";
+    if (round) out << "{face = \"side\", fixed = [\"x\", \"y\"]}";
+    else if (mirrored) out << "{face = \"x_high\", fixed = [\"x\"]}, {face = \"y_high\", fixed = [\"y\"]}";
+    out << "]\n";
+  }
   if (landing) out << "[[planes]]\naxis = \"" << up() << "\"\nposition = 0.0041\nfree_side = \"below\"\n";
   out << after;
 }
@@ -190,6 +203,7 @@ const std::vector<Feature>& features() {
       {"supports", "held", [](Column& c) { c.held = true, c.scheme["courant"] = "0.03"; }},
       {"planes", "rigid_plane", [](Column& c) { c.landing = c.flying = true, c.scheme["courant"] = "0.03"; }},
       {"motion", "flying", [](Column& c) { c.flying = true; }},
+      {"structures", "second_plate", [](Column& c) { c.second = true; }},
       {"walls", "no_walls", [](Column& c) { c.walls = "none"; }},
       {"walls", "no_slip_walls", [](Column& c) { c.walls = "no_slip"; }},
       {"walls", "open_below", [](Column& c) { c.walls = "open below"; }},
