@@ -77,6 +77,9 @@ std::string temperature_notes(const scene::Scene& scene) {
           name.c_str(), solid.name.c_str());
   };
   if (scene.structure) note(scene.structure->name, scene.structure->material);
+  if (scene.structure)
+    for (const fem::Part& part : scene.structure->parts)
+      if (part.material) note(scene.structure->name + "', part '" + part.group, *part.material);
   for (const solid::Body& body : scene.solids.bodies) note(body.name, body.material);
   return text;
 }

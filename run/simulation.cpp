@@ -76,6 +76,9 @@ double compression_energy(const sph::Fluid& fluid) {
 /// of a body at rest, far below what anybody computes.
 double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
   double fastest = scene.structure ? materials::wave_speed(scene.structure->material) : 0.0, mass = 0.0;
+  if (scene.structure)
+    for (const fem::Part& part : scene.structure->parts)
+      if (part.material) fastest = std::max(fastest, materials::wave_speed(*part.material));
   for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
   for (const auto& body : bodies) mass += body->ledger().mass;
   return 0.5 * mass * std::pow(1e-10 * fastest, 2);

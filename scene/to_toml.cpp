@@ -135,6 +135,12 @@ void put_structure(Writer& writer, const fem::Settings& structure) {
   std::visit([&](const auto& mesh) { put_mesh(writer, mesh); }, structure.mesh);
   put_radial(writer, "structure", structure.radial);
   put_solid_material(writer, "structure.material", structure.material);
+  for (const fem::Part& part : structure.parts) {
+    writer.table("[[structure.parts]]", "parts");
+    writer.fields(part);
+    if (part.offset) writer.put("offset", *part.offset);
+    if (part.material) put_solid_material(writer, "structure.parts.material", *part.material);
+  }
   for (const fem::Support& support : structure.supports) {
     writer.table("[[structure.supports]]", "supports");
     writer.fields(support);

@@ -14,7 +14,7 @@ void Validator::structure() {
     complain(node, "wet",
              "structure.wet is empty, so the water does not see the structure; name the faces that it touches, "
              "e.g. wet = [\"" +
-                 std::string(solid_ && solid_->mesh() ? "1" : "inner") + "\"]");
+                 (solid_ && solid_->mesh() ? solid_->faces(fluid_.symmetry.axis).back() : std::string("inner")) + "\"]");
   if (draft_.body_nodes.empty() && !structure.wet_faces.empty())
     complain(node, "wet", "structure.wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
   if (fluid && solid_ && draft_.spacing_good && all_usable())
