@@ -59,8 +59,9 @@ bool find_file(const TableReader& table, const TableReader& shape, Draft& draft,
     return false;
   }
   if (!shell)
-    for (const char* key : {"thickness", "offset"})
-      if (shape.has(key))
+    for (const auto& [key, given] :
+         {std::pair("thickness", mesh.thickness.has_value()), {"offset", mesh.offset != ShellOffset::mid}})
+      if (given)
         shape.complain(
             key, shape.path_of(key) + " is one of shells; leave it out, or take element = \"shell\" and a mesh of quadrangles");
   const std::filesystem::path full = draft.scene.file.parent_path() / mesh.path;

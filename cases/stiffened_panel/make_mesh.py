@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Meshes of the stiffened panel, as gmsh would write them (format 2.2, ASCII).
 
-    make_mesh.py [FOLDER]    writes panel.msh, panel_fine.msh (shells) and hexahedra.msh into FOLDER, by default this one
+    make_mesh.py [FOLDER]    writes panel.msh and hexahedra.msh, which are here, and panel_fine.msh and hexahedra_fine.msh, with
+                             cells half as wide, into FOLDER, by default this one
 
 A quarter of a square plate of 0.4 m in the plane z = 0, which a frame of 0.1 m width goes round. Two flat bars stand on it along x,
 at y = 0.07 m and its mirror image, from the plate to z = 0.048 m. Groups:
 
     shells       plate, frame, bars (surfaces); bar_end (a curve: where the bar meets the frame's inner edge)
-    hexahedra    plate, frame, bars (volumes); wet, frame_top, bar_end (surfaces)
+    hexahedra    plate, frame, bars (volumes); plate_bottom, frame_bottom, frame_top, bar_end (surfaces)
 """
 import pathlib
 import sys
@@ -77,7 +78,7 @@ def hexahedra(cell, through):
     mesh = Mesh()
     for number, name in enumerate(("plate", "frame", "bars"), 1):
         mesh.name(3, number, name)
-    for number, name in enumerate(("wet", "frame_top", "bar_end"), 4):
+    for number, name in enumerate(("plate_bottom", "frame_bottom", "frame_top", "bar_end"), 4):
         mesh.name(2, number, name)
     count = lambda length: max(1, round(length / cell))
     xs = steps(0, (HALF, count(HALF)), (FRAME, 4))
@@ -96,14 +97,14 @@ def hexahedra(cell, through):
             inside = max(x[1], y[1]) < HALF + 1e-9
             for z in pairs(zs):
                 block(1 if inside else 2, x, y, z)
-            for group, z in ((4, 0), (5, PLATE)):
-                if group == 4 or not inside:
+            for group, z in ((4 if inside else 5, 0), (6, PLATE)):
+                if group != 6 or not inside:
                     mesh.add(3, group, (x[0], y[0], z), (x[1], y[0], z), (x[1], y[1], z), (x[0], y[1], z))
             if x[1] < HALF + 1e-9 and low - 1e-9 < y[0] < high - 1e-9:
                 for z in pairs(bar_zs):
                     block(3, x, y, z)
                     if x[1] > HALF - 1e-9:
-                        mesh.add(3, 6, (x[1], y[0], z[0]), (x[1], y[1], z[0]), (x[1], y[1], z[1]), (x[1], y[0], z[1]))
+                        mesh.add(3, 7, (x[1], y[0], z[0]), (x[1], y[1], z[0]), (x[1], y[1], z[1]), (x[1], y[0], z[1]))
     return mesh
 
 
@@ -112,4 +113,5 @@ if __name__ == "__main__":
     folder = folder if folder.is_dir() else folder.parent
     shells(1).write(folder / "panel.msh")
     shells(2).write(folder / "panel_fine.msh")
-    hexahedra(0.005, 3).write(folder / "hexahedra.msh")
+    hexahedra(0.01, 2).write(folder / "hexahedra.msh")
+    hexahedra(0.005, 2).write(folder / "hexahedra_fine.msh")
