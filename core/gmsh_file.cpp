@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -20,16 +21,35 @@ namespace {
 
 constexpr const char* resave = "save it again as ASCII of version 2.2 or 4.1 (gmsh -format msh22)";
 
-/// What gmsh calls an element's type: its name, dimension and count of nodes.
+/// What gmsh calls an element's type: its name, dimension and count of nodes; and of the second order the type that its corners,
+/// which come first, are one of.
 struct ElementType {
   int number;
   const char* name;
   int dimension;
   std::size_t nodes;
+  int first_order = 0;
+  std::size_t corners = nodes;
 };
-constexpr ElementType known_types[] = {{15, "point", 0, 1},     {1, "line", 1, 2},        {2, "triangle", 2, 3},
-                                       {3, "quadrangle", 2, 4}, {4, "tetrahedron", 3, 4}, {5, "hexahedron", 3, 8},
-                                       {6, "prism", 3, 6},      {7, "pyramid", 3, 5}};
+constexpr ElementType known_types[] = {{15, "point", 0, 1},
+                                       {1, "line", 1, 2},
+                                       {2, "triangle", 2, 3},
+                                       {3, "quadrangle", 2, 4},
+                                       {4, "tetrahedron", 3, 4},
+                                       {5, "hexahedron", 3, 8},
+                                       {6, "prism", 3, 6},
+                                       {7, "pyramid", 3, 5},
+                                       {8, "line of second order", 1, 3, 1, 2},
+                                       {9, "triangle of second order", 2, 6, 2, 3},
+                                       {10, "quadrangle of second order", 2, 9, 3, 4},
+                                       {16, "quadrangle of second order", 2, 8, 3, 4},
+                                       {11, "tetrahedron of second order", 3, 10, 4, 4},
+                                       {12, "hexahedron of second order", 3, 27, 5, 8},
+                                       {17, "hexahedron of second order", 3, 20, 5, 8},
+                                       {13, "prism of second order", 3, 18, 6, 6},
+                                       {18, "prism of second order", 3, 15, 6, 6},
+                                       {14, "pyramid of second order", 3, 14, 7, 5},
+                                       {19, "pyramid of second order", 3, 13, 7, 5}};
 
 /// A text line by line, empty lines passed over, each cut into words.
 class Lines {
@@ -46,6 +66,7 @@ class Lines {
     while (words_.empty() && !rest_.empty()) {
       const std::size_t end = rest_.find('\n');
       std::string_view line = rest_.substr(0, end);
+      line_ = line;
       rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
       ++number_;
       constexpr const char* blank = " \t\r\v\f";
@@ -72,6 +93,7 @@ class Lines {
   }
 
   const std::vector<std::string_view>& words() const { return words_; }
+  std::string_view line() const { return line_; }
   long number() const { return number_; }
   std::size_t bytes_left() const { return rest_.size(); }
 
@@ -105,7 +127,7 @@ class Lines {
   }
 
  private:
-  std::string_view rest_;
+  std::string_view rest_, line_;
   std::string path_;
   std::vector<std::string_view> words_;
   long number_ = 0;
@@ -127,7 +149,9 @@ constexpr Kind hexahedra{.dimension = 3,
                          .cell_type = 5,
                          .face_type = 3,
                          .wanted = "the mesh must hold hexahedra only (and the quadrangles of their faces)",
-                         .remedy = "mesh with recombined, transfinite volumes in gmsh",
+                         .remedy =
+                             "mesh with recombined, transfinite volumes in gmsh, or have it divide all into hexahedra "
+                             "(Mesh.SubdivisionAlgorithm = 2)",
                          .sides = hexahedron_faces};
 constexpr Kind quadrangles{.dimension = 2,
                            .cell = "quadrangle",
@@ -141,29 +165,64 @@ constexpr Kind quadrangles{.dimension = 2,
                                "of their sides)",
                            .remedy = "mesh the meridian with recombined surfaces in gmsh",
                            .sides = std::span(hexahedron_faces).subspan(2)};
+constexpr Kind surface{
+    .dimension = 2,
+    .cell = "quadrangle",
+    .cells = "quadrangles",
+    .face = "line",
+    .face_entity = "curve",
+    .cell_type = 3,
+    .face_type = 1,
+    .wanted = "the mesh of a shell must hold quadrangles only (and the lines of their edges)",
+    .remedy = "mesh the surfaces alone, recombined, in gmsh (Mesh.RecombineAll = 1, Mesh.SubdivisionAlgorithm = 1)",
+    .sides = std::span(hexahedron_faces).subspan(2)};
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& path, GmshCells cells)
-      : lines_(text, path), kind_(cells == GmshCells::hexahedra ? hexahedra : quadrangles) {}
+  Reader(std::string_view text, const std::string& path, const Kind& kind) : lines_(text, path), kind_(kind) {}
 
   HexahedralMesh mesh() {
+    read_cells();
+    if (kind_.dimension == 2) lay_into_meridian();
+    check_shapes();
+    check_distinct_nodes();
+    find_outer_faces();
+    name_groups(mesh_.group_names, mesh_.face_names);
+    mesh_.groups = std::move(cell_groups_);
+    note_second_order(mesh_.remarks);
+    return std::move(mesh_);
+  }
+
+  QuadrangleSurface quadrangle_surface() {
+    read_cells();
+    check_quadrangles();
+    check_distinct_nodes();
+    QuadrangleSurface found;
+    for (const auto& cell : mesh_.cells) found.cells.push_back({cell[0], cell[1], cell[2], cell[3]});
+    for (const HexahedralMesh::Face& line : faces_)
+      if (line.nodes[0] >= 0) found.edges.push_back({{line.nodes[0], line.nodes[1]}, line.id});
+    found.nodes = std::move(mesh_.nodes);
+    found.groups = std::move(cell_groups_);
+    name_groups(found.group_names, found.edge_names);
+    note_second_order(found.remarks);
+    return found;
+  }
+
+ private:
+  static constexpr long long any_tag = 1ll << 62;
+
+  /// Cells and faces as they stand, and the nodes that cells have.
+  void read_cells() {
     read_format();
     while (lines_.next()) read_section();
     if (!has_nodes_) lines_.fail("the file ends without $Nodes; it is cut off or holds no mesh");
     if (!has_elements_) lines_.fail("the file ends without $Elements; it is cut off or holds no mesh");
     if (cells_.empty())
-      lines_.fail(std::string("the mesh holds no ") + kind_.cells + "; " + kind_.remedy + ", and save them too");
+      lines_.fail(
+          std::string("the mesh holds no ") + kind_.cells + "; " + kind_.remedy + ", and save them too" +
+          (kind_.dimension == 3 && quadrangles_ > 0 ? "; or element = \"shell\" with a thickness for its quadrangles" : ""));
     keep_used_nodes();
-    if (kind_.dimension == 2) lay_into_meridian();
-    check_shapes();
-    check_distinct_nodes();
-    find_outer_faces();
-    return std::move(mesh_);
   }
-
- private:
-  static constexpr long long any_tag = 1ll << 62;
 
   void read_format() {
     if (!lines_.next() || lines_.words()[0] != "$MeshFormat")
@@ -206,6 +265,9 @@ class Reader {
       once(has_elements_);
       if (!has_nodes_) lines_.fail("$Elements must come after $Nodes");
       four_ ? read_elements_4() : read_elements_2();
+    } else if (name == "$PhysicalNames") {
+      once(has_names_);
+      read_names();
     } else if (name == "$MeshFormat") {
       lines_.fail("$MeshFormat is there twice: two files in one?");
     } else {
@@ -226,6 +288,59 @@ class Reader {
   /// A count of things of which each takes two bytes of the file at least.
   long long count(std::size_t word, const char* what) {
     return lines_.whole(word, what, 0, std::min<long long>(long(lines_.bytes_left() / 2) + 1, 2000000000));
+  }
+
+  /// dimension, number, name in quotes, of each group.
+  void read_names() {
+    const std::string section = "$PhysicalNames";
+    lines_.need_words(section, 1, "the count of names");
+    const long long all = count(0, "the count of names");
+    std::set<std::string> taken[4];
+    for (long long i = 0; i < all; ++i) {
+      lines_.need(section);
+      if (lines_.words()[0].starts_with("$End")) lines_.fail(section + ": the counts do not fit: it ends too early");
+      if (lines_.words().size() < 3) lines_.fail(section + ": a name needs a dimension, a number and a name in quotes");
+      const auto dimension = int(lines_.whole(0, "a group's dimension", 0, 3));
+      const auto id = int(std::abs(lines_.whole(1, "a group's number", -2000000000, 2000000000)));
+      const std::string name = quoted_name();
+      if (!names_[dimension].emplace(id, name).second)
+        lines_.fail("the group " + std::to_string(id) + " of dimension " + std::to_string(dimension) + " is named twice");
+      if (!taken[dimension].insert(name).second)
+        lines_.fail("two groups of dimension " + std::to_string(dimension) + " have the name '" + name + "'; rename one of them");
+    }
+    end("PhysicalNames");
+  }
+
+  std::string quoted_name() const {
+    const std::string_view line = lines_.line();
+    const std::size_t begin = line.find('"'), close = line.rfind('"');
+    const std::size_t after = close == std::string_view::npos ? close : line.find_first_not_of(" \t\r\v\f", close + 1);
+    if (close == begin || after != std::string_view::npos) lines_.fail("the name of a group must end its line, in quotes");
+    const std::string name(line.substr(begin + 1, close - begin - 1));
+    const auto odd = [](char c) { return c < 32 || c > 126 || c == '"' || c == '\\'; };
+    if (name.empty() || name.size() > 127 || std::any_of(name.begin(), name.end(), odd))
+      lines_.fail(
+          "a group's name must be 1 to 127 letters, digits, blanks and signs of ASCII, without quotes and backslashes, not '" +
+          Lines::shown(name) + "'; rename it");
+    return name;
+  }
+
+  /// Names of cells' and of faces' groups. One that is a number must not be that of another group.
+  void name_groups(GroupNames& cells, GroupNames& faces) const {
+    for (const auto& [names, dimension] : {std::pair(&cells, kind_.dimension), std::pair(&faces, kind_.dimension - 1)})
+      for (const auto& [id, name] : names_[dimension]) {
+        if (name.find_first_not_of("0123456789") == std::string::npos && name != std::to_string(id))
+          lines_.fail("the name of the group " + std::to_string(id) + " is the number " + name +
+                      ", which another group may have; give it a letter");
+        names->given.emplace(id, name);
+      }
+  }
+
+  void note_second_order(std::vector<std::string>& remarks) const {
+    if (!second_order_) return;
+    remarks.push_back(
+        "the mesh is of the second order; only the corners of its cells are taken, so that edges are straight "
+        "between them: set Mesh.ElementOrder = 1 in gmsh, with smaller cells where the shape is curved");
   }
 
   void read_entities() {
@@ -261,6 +376,9 @@ class Reader {
     if (groups > 1 && dimension == kind_.dimension - 1)
       lines_.fail(std::string("the ") + kind_.face_entity + " " + std::to_string(tag) + " belongs to " + std::to_string(groups) +
                   " physical groups, but a face has one name; leave it in one of them");
+    if (groups > 1 && dimension == kind_.dimension)
+      lines_.fail(std::string("the ") + (dimension == 3 ? "volume " : "surface ") + std::to_string(tag) + " belongs to " +
+                  std::to_string(groups) + " physical groups, but a cell has one material; leave it in one of them");
     std::size_t used = at + 1 + std::size_t(groups);
     if (dimension > 0) {
       need(used + 1);
@@ -351,8 +469,10 @@ class Reader {
   const ElementType& type(long long number) {
     for (const ElementType& each : known_types)
       if (each.number == number) {
-        const bool below = each.dimension < kind_.dimension - 1 || number == 1;  // points and lines
-        if (!below && number != kind_.cell_type && number != kind_.face_type)
+        const int first = each.first_order ? each.first_order : each.number;
+        const bool below = each.dimension < kind_.dimension - 1 || first == 1;  // points and lines
+        if (first == 3) ++quadrangles_;
+        if (!below && first != kind_.cell_type && first != kind_.face_type)
           lines_.fail(std::string("a ") + each.name + ": " + kind_.wanted + "; " + kind_.remedy);
         return each;
       }
@@ -372,12 +492,15 @@ class Reader {
         lines_.fail(std::string("a ") + of.name + " has the node " + std::to_string(node) + " twice; it is collapsed");
       nodes.push_back(found->second);
     }
-    if (of.number == kind_.cell_type) {
+    const int first = of.first_order ? of.first_order : of.number;
+    if (first == kind_.cell_type) {
+      second_order_ |= of.first_order != 0;
       std::array<int, 8> cell;
-      for (std::size_t k = 0; k < 8; ++k) cell[k] = nodes[k % of.nodes];
+      for (std::size_t k = 0; k < 8; ++k) cell[k] = nodes[k % of.corners];
       cells_.push_back(cell);
+      cell_groups_.push_back(id);
       cell_lines_.push_back(lines_.number());
-    } else if (of.number == kind_.face_type) {
+    } else if (first == kind_.face_type) {
       if (kind_.dimension == 2) faces_.push_back({{nodes[0], nodes[1], nodes[1], nodes[0]}, id});
       else faces_.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}, id});
       face_lines_.push_back(lines_.number());
@@ -452,7 +575,7 @@ class Reader {
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (int& node : faces_[f].nodes) {
         node = kept[node];
-        if (node < 0)
+        if (node < 0 && &kind_ != &surface)
           lines_.fail(face_lines_[f], std::string("the ") + kind_.face + " is a face of no " + kind_.cell +
                                           "; remove it, or mesh what is behind it");
       }
@@ -496,6 +619,31 @@ class Reader {
       lines_.fail(cell_lines_[c],
                   std::string("the ") + kind_.cell + " near " + place(mesh_.nodes[mesh_.cells[c][0]]) +
                       " is inverted or flat: its nodes are out of order or at the wrong place; repair the mesh there");
+    }
+  }
+
+  /// The corners of a quadrangle in space are seen in one order from one side, and no two cells have the same.
+  void check_quadrangles() {
+    std::map<std::array<int, 4>, std::size_t> seen;
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+      const std::array<int, 8>& cell = mesh_.cells[c];
+      const auto at = [&](int v) -> const Vec3& { return mesh_.nodes[cell[v % 4]]; };
+      const Vec3 across = (at(2) - at(0)).cross(at(3) - at(1));
+      double longest = 0.0, least = 1e300;
+      for (int v = 0; v < 4; ++v) {
+        longest = std::max(longest, (at(v + 1) - at(v)).norm());
+        least = std::min(least, (at(v + 1) - at(v)).cross(at(v + 3) - at(v)).dot(across));
+      }
+      if (!(least > 1e-12 * longest * longest * across.norm()))
+        lines_.fail(cell_lines_[c],
+                    "the quadrangle near " + place(at(0)) +
+                        " is flat or folded: its nodes are out of order or at the wrong place; repair the mesh there");
+      std::array<int, 4> key{cell[0], cell[1], cell[2], cell[3]};
+      std::sort(key.begin(), key.end());
+      const auto [found, fresh] = seen.emplace(key, c);
+      if (!fresh)
+        lines_.fail(cell_lines_[c], "this quadrangle has the nodes of that of line " +
+                                        std::to_string(cell_lines_[found->second]) + "; remove one of them");
     }
   }
 
@@ -603,8 +751,10 @@ class Reader {
 
   Lines lines_;
   const Kind& kind_;
-  bool four_ = false, has_entities_ = false, has_nodes_ = false, has_elements_ = false;
-  std::map<long long, int> groups_[4];  // physical group by entity
+  bool four_ = false, has_entities_ = false, has_nodes_ = false, has_elements_ = false, has_names_ = false, second_order_ = false;
+  long quadrangles_ = 0;
+  std::map<int, std::string> names_[4];  // of physical groups, by dimension
+  std::map<long long, int> groups_[4];   // physical group by entity
   std::vector<Vec3> nodes_;
   std::vector<long> node_lines_, cell_lines_, face_lines_;
   std::vector<long long> node_tags_;
@@ -612,23 +762,32 @@ class Reader {
   std::unordered_map<long long, int> index_;
   std::unordered_map<long long, int> element_tags_;
   std::vector<std::array<int, 8>> cells_;
+  std::vector<int> cell_groups_;
   std::vector<HexahedralMesh::Face> faces_;
   HexahedralMesh mesh_;
 };
 
-}  // namespace
-
-HexahedralMesh parse_gmsh(std::string_view text, const std::string& path, GmshCells cells) {
-  return Reader(text, path, cells).mesh();
-}
-
-HexahedralMesh read_gmsh(const std::string& path, GmshCells cells) {
+std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file)
     throw std::invalid_argument(path + ": the mesh file cannot be read; give the path of a gmsh .msh file that you may read");
-  return parse_gmsh(text.str(), path, cells);
+  return text.str();
 }
+
+}  // namespace
+
+HexahedralMesh parse_gmsh(std::string_view text, const std::string& path, GmshCells cells) {
+  return Reader(text, path, cells == GmshCells::hexahedra ? hexahedra : quadrangles).mesh();
+}
+
+QuadrangleSurface parse_gmsh_surface(std::string_view text, const std::string& path) {
+  return Reader(text, path, surface).quadrangle_surface();
+}
+
+HexahedralMesh read_gmsh(const std::string& path, GmshCells cells) { return parse_gmsh(text_of(path), path, cells); }
+
+QuadrangleSurface read_gmsh_surface(const std::string& path) { return parse_gmsh_surface(text_of(path), path); }
 
 }  // namespace undex

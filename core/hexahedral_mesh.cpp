@@ -178,6 +178,12 @@ std::vector<int> pieces(const HexahedralMesh& mesh, JoinedBy by) {
         join(int(c), first[node]);
       }
   }
+  if (!mesh.ties.empty()) {
+    std::vector<int> cell_of(mesh.nodes.size(), -1);
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (const int node : mesh.cells[c]) cell_of[node] = int(c);
+    for (const HexahedralMesh::Tie& tie : mesh.ties) join(cell_of[tie.node], cell_of[tie.to.front().first]);
+  }
   std::vector<int> number(mesh.cells.size(), -1), piece;
   int count = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {

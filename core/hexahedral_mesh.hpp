@@ -5,13 +5,32 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/vector.hpp"
 
 namespace undex {
+
+/// Physical groups of a mesh: their names by their numbers. Without a name the number is the name, "0" of what has no group.
+struct GroupNames {
+  std::map<int, std::string> given;
+
+  std::string of(int id) const {
+    const auto found = given.find(id);
+    return found == given.end() ? std::to_string(id) : found->second;
+  }
+  /// The name of the group that a text means: its name, or its number.
+  std::string meant_by(const std::string& text) const {
+    for (const auto& [id, name] : given)
+      if (text == std::to_string(id)) return name;
+    return text;
+  }
+};
 
 struct HexahedralMesh {
   std::vector<Vec3> nodes;                ///< [m], each a corner of some cell
@@ -21,6 +40,17 @@ struct HexahedralMesh {
     int id;                    ///< its physical group; 0: none
   };
   std::vector<Face> faces;  ///< all outer ones
+  /// A node that lies on a face of another cell and moves with it: at the mean of other nodes, which are tied to none, by weights
+  /// of 0 to 1 whose sum is 1.
+  struct Tie {
+    int node;
+    std::vector<std::pair<int, double>> to;
+  };
+  std::vector<Tie> ties;
+  std::vector<int> groups;  ///< physical group of each cell; empty: none has one
+  GroupNames face_names, group_names;
+  bool is_shell = false;             ///< one layer of cells, whose first four nodes are one side of it and the others the other
+  std::vector<std::string> remarks;  ///< what a file says and the mesh has otherwise
 };
 
 /// The six faces of a hexahedron in VTK's order, each round its normal to the outside.

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -90,16 +91,19 @@ void create(dealii::Triangulation<dim>& triangulation, const Blocks& blocks) {
   name_faces<dim>(triangulation, id_of);
 }
 
-/// A mesh that was checked when it was read: deal.II turns mirrored cells and orders them alike.
+/// A mesh that was checked when it was read: deal.II turns mirrored cells and orders them alike. Those of a shell keep their
+/// directions.
 template <int dim>
 void create(dealii::Triangulation<dim>& triangulation, const HexahedralMesh& mesh) {
   std::vector<dealii::CellData<dim>> cells(mesh.cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (unsigned i = 0; i < cell_nodes<dim>; ++i)
-      cells[c].vertices[dealii::GeometryInfo<dim>::ucd_to_deal[i]] = unsigned(mesh.cells[c][i]);
+      cells[c].vertices[mesh.is_shell ? to_dealii[i] : dealii::GeometryInfo<dim>::ucd_to_deal[i]] = unsigned(mesh.cells[c][i]);
   const std::vector<dealii::Point<dim>> vertices = points<dim>(mesh.nodes);
-  dealii::GridTools::invert_cells_with_negative_measure(vertices, cells);
-  dealii::GridTools::consistently_order_cells(cells);
+  if (!mesh.is_shell) {
+    dealii::GridTools::invert_cells_with_negative_measure(vertices, cells);
+    dealii::GridTools::consistently_order_cells(cells);
+  }
   triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
   std::map<FaceKey<dim>, unsigned> id_of;
   for (const HexahedralMesh::Face& face : mesh.faces) id_of[key_of<dim>(face.nodes)] = unsigned(face.id);
@@ -130,20 +134,30 @@ struct Built final : DealMesh {
   std::unique_ptr<dealii::GridTools::Cache<dim>> cache;  // costly, built at the first question
 
   explicit Built(const MeshSource& source);
-  void take_cells(const std::vector<std::string>& names);
+  /// `name_of` a face's id: nothing for one that is not named.
+  void take_cells(const std::function<std::string(int)>& name_of);
   std::optional<Place> containing_cell(const Vec3& reference_position) override;
 };
 
 template <int dim>
 Built<dim>::Built(const MeshSource& source) {
-  if (source.blocks) create<dim>(triangulation, *source.blocks);
-  else create<dim>(triangulation, *source.mesh);
-  take_cells(source.blocks ? source.blocks->names : std::vector<std::string>());
+  if (source.blocks) {
+    create<dim>(triangulation, *source.blocks);
+    take_cells([&](int id) { return id == 0 ? std::string() : source.blocks->names[std::size_t(id) - 1]; });
+  } else {
+    const HexahedralMesh& mesh = *source.mesh;
+    create<dim>(triangulation, mesh);
+    take_cells([&](int id) { return mesh.face_names.of(id); });
+    grid.ties = mesh.ties;
+    grid.groups = mesh.groups;
+    grid.group_names = mesh.group_names;
+    grid.face_names = mesh.face_names;
+  }
 }
 
-/// Cells, their volumes and their faces as plain arrays. Without names those of the faces are their ids.
+/// Cells, their volumes and their faces as plain arrays.
 template <int dim>
-void Built<dim>::take_cells(const std::vector<std::string>& names) {
+void Built<dim>::take_cells(const std::function<std::string(int)>& name_of) {
   const dealii::FE_Q<dim> element(1);
   const dealii::QGauss<dim> rule(2);
   grid.axisymmetric = dim == 2;
@@ -171,8 +185,8 @@ void Built<dim>::take_cells(const std::vector<std::string>& names) {
       }
     for (const auto& face : cell->face_iterators()) {
       if (!face->at_boundary()) continue;
-      const unsigned id = face->boundary_id();
-      if (!names.empty() && id == 0) continue;
+      const std::string name = name_of(int(face->boundary_id()));
+      if (name.empty()) continue;
       std::array<int, 4> nodes;
       for (unsigned v = 0; v < 4; ++v) nodes[v] = static_cast<int>(face->vertex_index(around_face<dim>[v]));
       if (dim == 2 && grid.nodes[nodes[0]][0] == 0.0 && grid.nodes[nodes[1]][0] == 0.0) continue;  // the axis
@@ -183,7 +197,7 @@ void Built<dim>::take_cells(const std::vector<std::string>& names) {
         if (dim == 2) nodes = {nodes[1], nodes[0], nodes[0], nodes[1]};
         else std::swap(nodes[1], nodes[3]);
       }
-      grid.faces[names.empty() ? std::to_string(id) : names[id - 1]].push_back(nodes);
+      grid.faces[name].push_back(nodes);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hexahedral_mesh.hpp"
 #include "core/vector.hpp"
 #include "fem_structure/settings.hpp"
 
@@ -32,6 +33,9 @@ struct Grid {
   /// Boundary quadrilaterals, or segments (core/surface.hpp), by name; (x1 - x0) x (x3 - x0) points into the structure.
   std::map<std::string, std::vector<std::array<int, 4>>> faces;
   ReferenceCell reference;
+  std::vector<HexahedralMesh::Tie> ties;
+  std::vector<int> groups;  ///< physical group of each cell; empty: none has one
+  GroupNames group_names, face_names;
 };
 
 /// Cell and unit coordinates of a point, with the distance [m] to it when it lies outside the mesh.

@@ -29,9 +29,11 @@ decltype(&undex_deal_mesh) deal_mesh() {
   return function;
 }
 
-HexahedralMesh read_mesh(const GmshMesh& mesh, GmshCells cells, const std::string& who) {
+HexahedralMesh read_mesh(const GmshMesh& mesh, const Settings& settings, const std::string& who) {
   try {
-    return read_gmsh(mesh.path, cells);
+    if (settings.element == ElementKind::shell && !settings.axisymmetric)
+      return shells_on(read_gmsh_surface(mesh.path), mesh, settings.parts, settings.symmetry_axes);
+    return read_gmsh(mesh.path, settings.axisymmetric ? GmshCells::quadrangles : GmshCells::hexahedra);
   } catch (const std::invalid_argument& mistake) {
     throw std::invalid_argument(who + ": " + mistake.what());
   }
@@ -73,7 +75,7 @@ std::unique_ptr<DealMesh> build(const Settings& settings, const std::string& who
   const auto build_from = [&](const auto& mesh) {
     if constexpr (std::is_same_v<std::decay_t<decltype(mesh)>, GmshMesh>) {
       if (mesh.read) return from({.mesh = mesh.read.get()});
-      const HexahedralMesh read = read_mesh(mesh, settings.axisymmetric ? GmshCells::quadrangles : GmshCells::hexahedra, who);
+      const HexahedralMesh read = read_mesh(mesh, settings, who);
       return from({.mesh = &read});
     } else {
       const Blocks blocks = settings.axisymmetric ? build_meridian(mesh, settings.symmetry_axes, who)

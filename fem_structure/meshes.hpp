@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "core/hexahedral_mesh.hpp"
+#include "core/quadrangle_surface.hpp"
 #include "core/record.hpp"
 #include "core/shapes.hpp"
 #include "core/vector.hpp"
@@ -57,14 +58,18 @@ struct PlateMesh {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< [m]
   std::array<int, 3> cells{1, 1, 1};
 };
-/// Mesh of gmsh's .msh, of hexahedra or of a meridian's quadrangles; faces are named by their physical (boundary) id as text:
-/// "1", "2", ... (without one "0").
+/// Mesh of gmsh's .msh, of hexahedra or of a meridian's quadrangles; faces are named by their physical groups, without a name by
+/// the number as text, "1", "2", ... (without a group "0"). Of shells a surface of quadrangles (core/quadrangle_surface.hpp).
 struct GmshMesh {
   static constexpr const char* name = "gmsh";
-  static constexpr const char* summary = "a mesh with its own cells; its faces are its physical ids as text, \"1\", \"2\", ...";
-  static constexpr bool has_wall = false;
+  static constexpr const char* summary =
+      "a mesh with its own cells; its faces are called as its physical groups are (without a name: their numbers, \"1\", \"2\", "
+      "...); of shells \"<group>.top\" and \"<group>.bottom\", and the groups of curves at their edges";
+  static constexpr bool has_wall = true;
   std::string path;
-  std::shared_ptr<const HexahedralMesh> read = nullptr;  ///< what the file holds; empty: not read yet
+  std::shared_ptr<const HexahedralMesh> read = nullptr;  ///< what the file holds, of shells as a layer; empty: not read yet
+  std::optional<double> thickness = {};                  ///< of shells [m], of groups without one of their own
+  ShellOffset offset = ShellOffset::mid;
 };
 using Mesh = std::variant<TubeMesh, PlateMesh, RodMesh, GmshMesh>;
 
@@ -110,8 +115,16 @@ void describe(GmshMesh& mesh, Visit&& visit) {
                     .needed = true,
                     .remedy = "give the .msh file, relative to the scene file",
                     .values = "a .msh file of hexahedra",
-                    .meaning = "relative to the scene file; in an axisymmetric scene of quadrangles: the file's x is the "
-                               "distance from the axis of revolution, its y the coordinate along it"});
+                    .meaning = "relative to the scene file; of shells of quadrangles; in an axisymmetric scene of quadrangles: "
+                               "the file's x is the distance from the axis of revolution, its y the coordinate along it"});
+  visit(mesh.thickness, {.name = "thickness",
+                         .unit = "m",
+                         .range = Range::length(),
+                         .rule = "that of `parts`",
+                         .meaning = "of shells: that of every group which has none of its own in `parts`"});
+  visit(mesh.offset, {.name = "offset",
+                      .meaning = "of shells: where they lie from the quadrangles, half to either side, or all on the side of "
+                                 "their normals (\"top\"), or on the other"});
 }
 
 /// The counts of a mesh's cells, all of the whole body: a second record of the same mesh.

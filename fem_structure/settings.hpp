@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,29 @@ void describe(PressureLoad& load, Visit&& visit) {
                         .meaning = "linear between the times, constant outside them"});
 }
 
+/// What a physical group of a gmsh mesh is made of, where that is not what the whole structure is.
+struct Part {
+  std::string group;
+  std::optional<materials::Solid> material;  ///< none: the structure's
+  std::optional<double> thickness;           ///< of shells [m]; none: the mesh's
+  std::optional<ShellOffset> offset;         ///< of shells; none: the mesh's
+};
+template <class Visit>
+void describe(Part& part, Visit&& visit) {
+  visit(part.group, {.name = "group",
+                     .needed = true,
+                     .remedy = "name a physical group of volumes, of shells one of surfaces",
+                     .values = "a group",
+                     .meaning = "a physical group of the mesh: of volumes, of shells one of surfaces"});
+  visit(ByHand{}, {.name = "material", .rule = "the structure's", .values = "a solid", .meaning = "see [materials](#materials)"});
+  visit(part.thickness,
+        {.name = "thickness", .unit = "m", .range = Range::length(), .rule = "that of `shape`", .meaning = "of shells"});
+  visit(ByHand{}, {.name = "offset",
+                   .rule = "that of `shape`",
+                   .values = "\"mid\", \"top\", \"bottom\"",
+                   .meaning = "of shells: where they lie from the quadrangles"});
+}
+
 struct Settings {
   std::string name = "structure";
   /// A body of revolution, computed in its meridian: positions and vectors are (distance from the axis, along the axis, 0), the
@@ -43,8 +67,9 @@ struct Settings {
   bool axisymmetric = false;
   Mesh mesh;
   ElementKind element = ElementKind::hexahedron;
-  int points_through = 3;  ///< of shells: Gauss points through the thickness of a cell, 2 to 10
-  materials::Solid material;
+  int points_through = 3;     ///< of shells: Gauss points through the thickness of a cell, 2 to 10
+  materials::Solid material;  ///< of all that `parts` do not name
+  std::vector<Part> parts;    ///< of a gmsh mesh
   std::vector<Support> supports;
   std::vector<int> symmetry_axes;      ///< planes through the origin; the part with x[axis] >= 0 is kept (a mesh
                                        ///< from gmsh must already be that part)
@@ -81,18 +106,22 @@ void describe(Settings& structure, Visit&& visit) {
                    .meaning = "largest size of a cell, in place of `cells`; a shell has one through the wall all the same"});
   visit(structure.element,
         {.name = "element",
-         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent); in an "
-                    "axisymmetric scene of a rod too, which is a disc (along its axis)"});
+         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent), or of a "
+                    "gmsh mesh of quadrangles; in an axisymmetric scene of a rod too, which is a disc (along its axis)"});
   visit(structure.points_through,
         {.name = "points_through",
          .range = Range::between(2, 10),
          .meaning = "of shells: Gauss points through the thickness of a cell; take 5 where plastic bending "
                     "counts"});
   visit(ByHand{}, {.name = "material",
-                   .needed = true,
+                   .needed = structure.parts.empty(),
                    .remedy = "e.g. material = \"al-5083-h116\" ('undex materials' lists them)",
                    .values = "a solid",
-                   .meaning = "see [materials](#materials)"});
+                   .meaning = "see [materials](#materials); not needed where `parts` name all groups of a mesh"});
+  visit(ByHand{}, {.name = "parts",
+                   .rule = "[]",
+                   .values = "list of tables",
+                   .meaning = "groups of a gmsh mesh with a material, or a thickness, of their own"});
   visit(ByHand{}, {.name = "supports", .rule = "[]", .values = "list of tables", .meaning = "held faces"});
   visit(structure.wet_faces,
         {.name = "wet", .values = "list of faces", .meaning = "those that the water touches; needed where there are bodies"});
@@ -111,6 +140,29 @@ void describe(Settings& structure, Visit&& visit) {
         {.name = "linear_viscosity", .range = Range::between(0, 10), .meaning = "bulk viscosity against ringing"});
   visit(structure.quadratic_viscosity,
         {.name = "quadratic_viscosity", .range = Range::between(0, 100), .meaning = "and its quadratic term"});
+}
+
+/// The layer of hexahedra that shells on a surface of quadrangles are. Throws std::invalid_argument that begins with the mesh's
+/// path where a group has no thickness, and where thickened() does.
+inline HexahedralMesh shells_on(const QuadrangleSurface& surface, const GmshMesh& mesh, const std::vector<Part>& parts,
+                                const std::vector<int>& symmetry_axes) {
+  const auto layer_of = [&](int group) {
+    const std::string name = surface.group_names.of(group);
+    std::optional<double> thickness = mesh.thickness;
+    Layer layer{0, mesh.offset};
+    for (const Part& part : parts) {
+      if (surface.group_names.meant_by(part.group) != name) continue;
+      if (part.thickness) thickness = part.thickness;
+      if (part.offset) layer.offset = *part.offset;
+    }
+    if (!thickness)
+      throw std::invalid_argument(mesh.path + ": the shells of the group '" + name +
+                                  "' have no thickness; give shape.thickness, or a part {group = \"" + name +
+                                  "\", thickness = ...}");
+    layer.thickness = *thickness;
+    return layer;
+  };
+  return thickened(surface, layer_of, symmetry_axes, mesh.path);
 }
 
 }  // namespace undex::fem

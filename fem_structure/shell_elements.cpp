@@ -53,6 +53,7 @@ double dot(const double (&a)[3], const double (&b)[3]) { return a[0] * b[0] + a[
 int thickness_direction(const Mesh& mesh, bool axisymmetric, const std::string& who) {
   if (std::holds_alternative<TubeMesh>(mesh)) return 0;  // the blocks of a tube count the cells through its wall first
   if (axisymmetric && std::holds_alternative<RodMesh>(mesh)) return 1;
+  if (!axisymmetric && std::holds_alternative<GmshMesh>(mesh)) return 2;  // as thickened() has the nodes
   if (const auto* plate = std::get_if<PlateMesh>(&mesh)) {
     int thinnest = 0;
     for (int d = 1; d < 3; ++d)
@@ -60,8 +61,8 @@ int thickness_direction(const Mesh& mesh, bool axisymmetric, const std::string& 
     return thinnest;
   }
   throw std::invalid_argument(who +
-                              ": shell elements need a wall whose thickness direction is known, that of a tube or a "
-                              "plate; use hexahedra for a rod or a gmsh mesh");
+                              ": shell elements need a wall whose thickness direction is known, that of a tube, a "
+                              "plate or quadrangles in space; use hexahedra for a rod, or a gmsh mesh of a meridian");
 }
 
 /// Shape functions of the mid-surface at the points of a layer, for all layers of a batch; xi, eta in [-1, 1].

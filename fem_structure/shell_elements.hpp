@@ -22,7 +22,8 @@
 namespace undex::fem {
 
 /// Direction (0, 1 or 2) of a cell's unit coordinates that runs through the wall: radial in a tube, the thinnest extent of a
-/// plate; a disc's, a rod in a meridian, along the axis. Throws std::invalid_argument where a mesh has none; `who` opens it.
+/// plate, the third of gmsh's shells; a disc's, a rod in a meridian, along the axis. Throws std::invalid_argument where a mesh
+/// has none; `who` opens it.
 int thickness_direction(const Mesh& mesh, bool axisymmetric, const std::string& who);
 
 /// Layers of a cell at most.

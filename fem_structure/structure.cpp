@@ -8,13 +8,13 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <stdexcept>
-#include <type_traits>
 
 #include "core/bilinear_patch.hpp"
 #include "core/errors.hpp"
-#include "fem_structure/elements.hpp"
+#include "fem_structure/element_parts.hpp"
 #include "fem_structure/grid.hpp"
 #include "fem_structure/mistakes.hpp"
 #include "fem_structure/shell_elements.hpp"
@@ -35,18 +35,6 @@ double depth(const RigidPlane& plane, const Vec3& x) {
   return plane.body_above ? plane.position - x[plane.axis] : x[plane.axis] - plane.position;
 }
 
-std::unique_ptr<ElementSet> make_elements(const Settings& settings, const Grid& grid) {
-  const auto make = [&]<class Kind>(std::type_identity<Kind>, auto... more) -> std::unique_ptr<ElementSet> {
-    return std::make_unique<Kind>(grid, settings.material, settings.linear_viscosity, settings.quadratic_viscosity, more...);
-  };
-  const bool rings = settings.axisymmetric;
-  if (settings.element == ElementKind::hexahedron)
-    return rings ? make(std::type_identity<RingElements>()) : make(std::type_identity<Elements>());
-  const int through = thickness_direction(settings.mesh, rings, "structure '" + settings.name + "'");
-  return rings ? make(std::type_identity<RingShells>(), through, settings.points_through)
-               : make(std::type_identity<ShellElements>(), through, settings.points_through);
-}
-
 /// What is not of revolution.
 void check_meridian(Mistakes& mistakes, const Settings& settings) {
   const auto along_axis = [](const Vec3& v) { return v[0] == 0.0 && v[2] == 0.0; };
@@ -59,6 +47,34 @@ void check_meridian(Mistakes& mistakes, const Settings& settings) {
                      " is not of revolution; put it across the axis of revolution, or compute in 3D");
   for (const int axis : settings.symmetry_axes)
     mistakes.require(axis == 1, "symmetry axis ", axis, " does not exist in a meridian; only that along the axis, 1, does");
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+/// Every cell has a material, and every part is one of the mesh.
+void check_materials(Mistakes& mistakes, const Settings& settings, const Grid& grid) {
+  const std::vector<int> part_of = parts_of(settings, grid);
+  std::set<std::string> groups;
+  for (const int group : grid.groups) groups.insert(grid.group_names.of(group));
+  std::set<std::string> named;
+  for (const Part& part : settings.parts) {
+    const std::string group = grid.group_names.meant_by(part.group);
+    mistakes.require(groups.count(group) > 0, "a part names the group '", part.group, "'; the groups of this mesh are ",
+                     listed(groups));
+    mistakes.require(named.insert(group).second, "two parts name the group '", part.group, "'; leave out one of them");
+  }
+  std::set<int> used(part_of.begin(), part_of.end());
+  for (const int p : used) {
+    const materials::Solid& material = material_of(settings, p);
+    mistakes.require(material.rho0 > 0.0 && material.shear_modulus > 0.0, "material '", material.name, "' has density ",
+                     material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus, " Pa; both must be positive");
+    mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ", material.heat_capacity,
+                     " J/kg/K; it must be positive");
+  }
 }
 
 void check(const Settings& settings, const Grid& grid) {
@@ -82,11 +98,7 @@ void check(const Settings& settings, const Grid& grid) {
   mistakes.require(settings.linear_viscosity >= 0.0 && settings.quadratic_viscosity >= 0.0, "bulk viscosities ",
                    settings.linear_viscosity, " and ", settings.quadratic_viscosity,
                    " must not be negative; 0.06 and 1.2 are usual, 0 switches one off");
-  const materials::Solid& material = settings.material;
-  mistakes.require(material.rho0 > 0.0 && material.shear_modulus > 0.0, "material '", material.name, "' has density ",
-                   material.rho0, " kg/m^3 and shear modulus ", material.shear_modulus, " Pa; both must be positive");
-  mistakes.require(material.heat_capacity > 0.0, "material '", material.name, "' has heat capacity ", material.heat_capacity,
-                   " J/kg/K; it must be positive");
+  check_materials(mistakes, settings, grid);
   mistakes.require(settings.initial_velocity.allFinite() && settings.spin.allFinite(), "the initial velocity is not finite");
   mistakes.require(settings.points_through >= 2 && settings.points_through <= most_layers,
                    "points_through = ", settings.points_through, "; give 2 to ", most_layers);
@@ -125,6 +137,15 @@ double interpolated(const PressureLoad& load, double time) {
   return load.pressure[i - 1] + share * (load.pressure[i] - load.pressure[i - 1]);
 }
 
+/// The settings with the faces' own names where their numbers stand.
+Settings with_names(Settings settings, const Grid& grid) {
+  const auto rename = [&](std::string& face) { face = grid.face_names.meant_by(face); };
+  for (Support& support : settings.supports) rename(support.face);
+  for (PressureLoad& load : settings.loads) rename(load.face);
+  for (std::string& face : settings.wet_faces) rename(face);
+  return settings;
+}
+
 /// Every node's mass, handed on along the cells' edges in equal shares to those nearer to `nodes`: what arrives there.
 std::vector<double> carried_by(const std::vector<int>& nodes, const Grid& grid, std::vector<double> mass) {
   if (nodes.empty()) return {};
@@ -138,6 +159,11 @@ std::vector<double> carried_by(const std::vector<int>& nodes, const Grid& grid, 
     for (const auto& [a, b] : edges) {
       join(cell[a], cell[b]);
       join(cell[b], cell[a]);
+    }
+  for (const HexahedralMesh::Tie& tie : grid.ties)
+    for (const auto& [node, weight] : tie.to) {
+      join(tie.node, node);
+      join(node, tie.node);
     }
   // Nearest first, by the number of edges; then from the farthest back.
   std::vector<int> order = nodes, distance(grid.nodes.size(), -1);
@@ -193,7 +219,8 @@ struct Structure::Implementation {
   Settings settings;
   Mesher mesher;
   const Grid& grid;
-  std::unique_ptr<ElementSet> elements;
+  ElementParts elements;
+  std::vector<double> mass;  ///< [kg] of nodes; those tied have given theirs to what they are tied to
 
   // State, per node.
   std::vector<Vec3> position, velocity;
@@ -217,13 +244,18 @@ struct Structure::Implementation {
   explicit Implementation(const Settings& given)
       : settings(given),
         mesher(settings),
-        grid((check(settings, mesher.grid()), mesher.grid())),
-        elements(make_elements(settings, grid)) {
+        grid((settings = with_names(settings, mesher.grid()), check(settings, mesher.grid()), mesher.grid())),
+        elements(settings, grid),
+        mass(elements.nodal_mass()) {
     const std::size_t n = grid.nodes.size();
     position = grid.nodes;
     time = settings.start_time;
     inverse_mass.resize(n);
-    for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(1.0 / elements->nodal_mass()[i]);
+    for (const HexahedralMesh::Tie& tie : grid.ties) {
+      for (const auto& [node, weight] : tie.to) mass[node] += weight * mass[tie.node];
+      mass[tie.node] = 0.0;
+    }
+    for (std::size_t i = 0; i < n; ++i) inverse_mass[i].setConstant(mass[i] > 0.0 ? 1.0 / mass[i] : 0.0);
     double extent = 0.0;
     for (const Vec3& x : grid.nodes) extent = std::max(extent, x.cwiseAbs().maxCoeff());
     for (int axis : settings.symmetry_axes)
@@ -239,6 +271,7 @@ struct Structure::Implementation {
         for (int node : quad)
           for (int d = 0; d < 3; ++d)
             if (support.fixed[d]) inverse_mass[node][d] = 0.0;
+    hold_with_tied();
     velocity.assign(n, settings.initial_velocity);
     if (settings.radial)
       for (std::size_t i = 0; i < n; ++i) velocity[i] += settings.radial->at(grid.nodes[i]);
@@ -250,10 +283,11 @@ struct Structure::Implementation {
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         if (inverse_mass[i][d] == 0.0) velocity[i][d] = 0.0;
+    follow_ties(velocity);
     for (auto* field : {&acceleration, &increment, &internal_force, &load_force, &impulse_force, &coming_velocity})
       field->assign(n, Vec3::Zero());
     take_wet_surface();
-    first_critical_step = elements->critical_step();
+    first_critical_step = elements.critical_step();
     find_load_force();
     find_acceleration();
     show_wet_motion();
@@ -279,7 +313,34 @@ struct Structure::Implementation {
         wet.faces.push_back(face);
       }
     for (auto* field : {&wet_position, &wet_velocity, &wet_acceleration}) field->resize(wet_nodes.size());
-    wet_mass = carried_by(wet_nodes, grid, elements->nodal_mass());
+    wet_mass = carried_by(wet_nodes, grid, elements.nodal_mass());
+  }
+
+  /// What holds a tied node holds those that it is tied to.
+  void hold_with_tied() {
+    if (grid.ties.empty()) return;
+    std::vector<char> is_tied(grid.nodes.size(), 0);
+    for (const HexahedralMesh::Tie& tie : grid.ties) is_tied[tie.node] = 1;
+    const auto hold = [&](int node, int d) {
+      for (const HexahedralMesh::Tie& tie : grid.ties)
+        if (tie.node == node)
+          for (const auto& [to, weight] : tie.to)
+            if (weight > 1e-9) inverse_mass[to][d] = 0.0;
+    };
+    for (const Support& support : settings.supports)
+      for (const auto& quad : grid.faces.at(support.face))
+        for (int node : quad)
+          for (int d = 0; d < 3; ++d)
+            if (support.fixed[d] && is_tied[node]) hold(node, d);
+  }
+
+  /// Of tied nodes the mean of those that they are tied to.
+  void follow_ties(std::vector<Vec3>& field) const {
+    for (const HexahedralMesh::Tie& tie : grid.ties) {
+      Vec3 sum = Vec3::Zero();
+      for (const auto& [node, weight] : tie.to) sum += weight * field[node];
+      field[tie.node] = sum;
+    }
   }
 
   void show_wet_motion() {
@@ -307,14 +368,20 @@ struct Structure::Implementation {
     const long n = static_cast<long>(position.size());
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i)
-      acceleration[i] = (load_force[i] + impulse_force[i] - internal_force[i] + elements->nodal_mass()[i] * settings.gravity)
-                            .cwiseProduct(inverse_mass[i]);
+      acceleration[i] =
+          (load_force[i] + impulse_force[i] - internal_force[i] + mass[i] * settings.gravity).cwiseProduct(inverse_mass[i]);
+    if (grid.ties.empty()) return;
+    for (const HexahedralMesh::Tie& tie : grid.ties) {
+      const Vec3 force = load_force[tie.node] + impulse_force[tie.node] - internal_force[tie.node];
+      for (const auto& [node, weight] : tie.to) acceleration[node] += weight * force.cwiseProduct(inverse_mass[node]);
+    }
+    follow_ties(acceleration);
   }
 
   /// dt^2/8 m a.a, by which half the product of the neighbouring half-step velocities falls short of m v.v/2.
   double held_back(double dt) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < acceleration.size(); ++i) sum += elements->nodal_mass()[i] * acceleration[i].squaredNorm();
+    for (std::size_t i = 0; i < acceleration.size(); ++i) sum += mass[i] * acceleration[i].squaredNorm();
     return dt * dt / 8.0 * sum;
   }
 
@@ -334,11 +401,11 @@ struct Structure::Implementation {
       for (std::size_t i = 0; i < position.size(); ++i) {
         double& v = velocity[i][plane.axis];
         if (depth(plane, position[i] + dt * velocity[i]) <= 0.0 || inverse_mass[i][plane.axis] == 0.0) continue;
-        const double mass = elements->nodal_mass()[i], allowed = (plane.position - position[i][plane.axis]) / dt;
+        const double allowed = (plane.position - position[i][plane.axis]) / dt;
         const double change = allowed - v;
-        plane_impulse[plane.axis] += mass * change;
+        plane_impulse[plane.axis] += mass[i] * change;
         // Work of the push with the mean of the half-step velocities before and after it.
-        impact_loss -= 0.5 * mass * change * (v + allowed - dt * acceleration[i][plane.axis]);
+        impact_loss -= 0.5 * mass[i] * change * (v + allowed - dt * acceleration[i][plane.axis]);
         v = allowed;
       }
   }
@@ -351,13 +418,14 @@ struct Structure::Implementation {
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
     meet_planes(dt);
+    follow_ties(velocity);
 #pragma omp parallel for schedule(static) if (position.size() > worth_threads)
     for (long i = 0; i < n; ++i) {
       increment[i] = dt * velocity[i];
       position[i] += increment[i];
     }
     book_loads(dt);
-    const long failed = elements->advance(position, increment, dt, internal_force);
+    const long failed = elements.advance(position, increment, dt, internal_force);
     last_step = dt;
     if (failed >= 0) take_back_and_stop(failed, dt);
     time += dt;
@@ -388,7 +456,7 @@ struct Structure::Implementation {
     state("internal force", internal_force);
     state("load force", load_force);
     state("impulse force", impulse_force);
-    state.part("elements", [&] { elements->visit_state(state); });
+    state.part("elements", [&] { elements.visit_state(state); });
     state("timers", timers);
     if (state.restores()) show_wet_motion();
   }
@@ -400,7 +468,7 @@ struct Structure::Implementation {
   }
 
   std::string owner() const {
-    const std::size_t cell = elements->critical_cell();
+    const std::size_t cell = elements.critical_cell();
     return "cell " + std::to_string(cell) + " of '" + settings.name + "', reference position " + written(center(cell));
   }
 
@@ -423,7 +491,7 @@ struct Structure::Implementation {
     throw NumericalStop(what);
   }
 
-  double stable_step() const { return settings.courant * elements->critical_step(); }
+  double stable_step() const { return settings.courant * elements.critical_step(); }
 
   /// Velocities [m/s] in the middle of a step of dt [s]: kicked, and met by rigid planes.
   void find_coming_velocity(double dt) {
@@ -442,7 +510,7 @@ struct Structure::Implementation {
   double longest_step() {
     const double stable = stable_step();
     find_coming_velocity(stable);
-    const double coming = elements->coming_step(position, coming_velocity);
+    const double coming = elements.coming_step(position, coming_velocity);
     return coming < stable ? settings.courant * coming : stable;
   }
 
@@ -464,7 +532,7 @@ struct Structure::Implementation {
       const double longest = longest_step();
       if (!(longest > 1e-4 * settings.courant * first_critical_step))
         throw NumericalStop(
-            description_of(elements->critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one"));
+            description_of(elements.critical_cell(), "is crushed: its stable step has fallen below 1e-4 of the first one"));
       const double left = t_end - time;
       const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-12)));
       step(left / count);
@@ -484,7 +552,7 @@ std::size_t Structure::cell_count() const { return self_->grid.cells.size(); }
 std::size_t Structure::node_count() const { return self_->grid.nodes.size(); }
 std::size_t Structure::memory_bytes() const {
   const std::size_t nodes = node_count(), wet = self_->wet_nodes.size();
-  std::size_t bytes = self_->elements->memory_bytes() + 10 * nodes * sizeof(Vec3);
+  std::size_t bytes = self_->elements.memory_bytes() + 10 * nodes * sizeof(Vec3);
   bytes += cell_count() * (sizeof(std::array<int, 8>) + sizeof(std::array<double, 8>));
   return bytes + wet * (4 * sizeof(Vec3) + sizeof(int) + sizeof(double)) + self_->wet.faces.size() * sizeof(std::array<int, 4>);
 }
@@ -505,7 +573,7 @@ void Structure::visit_state(StateVisitor& state) { self_->visit_state(state); }
 
 BodyLedger Structure::ledger() const {
   BodyLedger ledger;
-  const auto& mass = self_->elements->nodal_mass();
+  const auto& mass = self_->mass;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const Vec3 &x = self_->position[i], &v = self_->velocity[i];
     ledger.mass += mass[i];
@@ -515,9 +583,9 @@ BodyLedger Structure::ledger() const {
     ledger.angular_momentum += mass[i] * x.cross(v);
   }
   ledger.integrator = self_->integrator_jumps - self_->integrator_held;
-  ledger.elastic = self_->elements->elastic_energy();
-  ledger.plastic = self_->elements->plastic_work();
-  ledger.viscous = self_->elements->viscous_work();
+  ledger.elastic = self_->elements.elastic_energy();
+  ledger.plastic = self_->elements.plastic_work();
+  ledger.viscous = self_->elements.viscous_work();
   ledger.received = self_->received_work;
   ledger.external = self_->load_work;
   ledger.impulse = self_->load_impulse + self_->plane_impulse;
@@ -527,7 +595,7 @@ BodyLedger Structure::ledger() const {
 
 Vec3 Structure::plane_impulse() const { return self_->plane_impulse; }
 std::span<const Vec3> Structure::positions() const { return self_->position; }
-std::span<const double> Structure::masses() const { return self_->elements->nodal_mass(); }
+std::span<const double> Structure::masses() const { return self_->mass; }
 BodySize Structure::size() const { return {.cells = cell_count(), .nodes = node_count()}; }
 const PassTimers& Structure::timers() const { return self_->timers; }
 
@@ -535,7 +603,7 @@ std::string Structure::description() const {
   char counts[200];
   std::snprintf(counts, sizeof counts, "  %zu cells, %zu nodes, %.6g kg, stable step %.4g us\n", cell_count(), node_count(),
                 ledger().mass, stable_step() * 1e6);
-  return "structure " + self_->settings.name + " of " + self_->settings.material.name + "\n" + counts;
+  return "structure " + self_->settings.name + " of " + self_->elements.materials() + "\n" + counts;
 }
 
 namespace {
@@ -555,7 +623,7 @@ std::vector<double> as_numbers(std::span<const Vec3> vectors) {
 }  // namespace
 
 BodySnapshot Structure::snapshot(std::span<const std::string>) const {
-  const ElementSet& elements = *self_->elements;
+  const ElementParts& elements = self_->elements;
   const auto means = [&](auto of) {
     std::vector<double> values(cell_count(), 0.0);
     for (std::size_t c = 0; c < cell_count(); ++c)
@@ -585,8 +653,8 @@ BodyPoint Structure::locate(const Vec3& reference_position) const {
   const auto shape = shape_values(place.unit);
   for (int i = 0; i < 8; ++i)
     point.motion.push_back({.carrier = std::uint32_t(self_->grid.cells.at(place.cell)[i]), .weight = shape[i]});
-  const std::vector<double> shares = self_->elements->shares_at(place.unit);
-  const int points = self_->elements->points_per_cell();
+  const std::vector<double> shares = self_->elements.shares_at(place.unit);
+  const int points = self_->elements.points_per_cell();
   for (int q = 0; q < points; ++q)
     point.state.push_back({.carrier = std::uint32_t(place.cell * points + q), .weight = shares[q]});
   return point;
@@ -600,13 +668,13 @@ MaterialPoint Structure::read(const BodyPoint& point) const {
     values.acceleration += weight * self_->acceleration[node];
     values.displacement += weight * (self_->position[node] - self_->grid.nodes[node]);
   }
-  const int points = self_->elements->points_per_cell();
+  const int points = self_->elements.points_per_cell();
   for (const auto& [carrier, weight, image] : point.state) {
     const std::size_t cell = carrier / points;
     const int q = int(carrier % points);
-    values.stress += weight * self_->elements->stress(cell, q);
-    values.plastic_strain += weight * self_->elements->plastic_strain(cell, q);
-    values.temperature += weight * self_->elements->temperature(cell, q);
+    values.stress += weight * self_->elements.stress(cell, q);
+    values.plastic_strain += weight * self_->elements.plastic_strain(cell, q);
+    values.temperature += weight * self_->elements.temperature(cell, q);
   }
   return values;
 }

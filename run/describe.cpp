@@ -76,7 +76,11 @@ std::string temperature_notes(const scene::Scene& scene) {
           "shocks and compression\n",
           name.c_str(), solid.name.c_str());
   };
-  for (const fem::Settings& structure : scene.structures) note(structure.name, structure.material);
+  for (const fem::Settings& structure : scene.structures) {
+    note(structure.name, structure.material);
+    for (const fem::Part& part : structure.parts)
+      if (part.material) note(structure.name + "', part '" + part.group, *part.material);
+  }
   for (const solid::Body& body : scene.solids.bodies) note(body.name, body.material);
   return text;
 }

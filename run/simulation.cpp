@@ -79,7 +79,11 @@ double compression_energy(const sph::Fluid& fluid) {
 /// of a body at rest, far below what anybody computes.
 double rounding_energy(const scene::Scene& scene, const std::vector<std::unique_ptr<DeformableBody>>& bodies) {
   double fastest = 0, mass = 0;
-  for (const fem::Settings& structure : scene.structures) fastest = std::max(fastest, materials::wave_speed(structure.material));
+  for (const fem::Settings& structure : scene.structures) {
+    fastest = std::max(fastest, materials::wave_speed(structure.material));
+    for (const fem::Part& part : structure.parts)
+      if (part.material) fastest = std::max(fastest, materials::wave_speed(*part.material));
+  }
   for (const solid::Body& solid : scene.solids.bodies) fastest = std::max(fastest, materials::wave_speed(solid.material));
   for (const auto& body : bodies) mass += body->ledger().mass;
   return 0.5 * mass * std::pow(1e-10 * fastest, 2);

@@ -1,5 +1,6 @@
 // [structure], [[structures]] and [coupling].
 #include <algorithm>
+#include <set>
 
 #include "core/gmsh_file.hpp"
 #include "scene/draft.hpp"
@@ -19,8 +20,50 @@ std::vector<std::string> mesh_types() {
   return names;
 }
 
+/// Is every part one of the mesh's groups, once, and is every group of some material?
+bool check_groups(const TableReader& table, const std::vector<int>& groups, const GroupNames& names, fem::Settings& structure) {
+  std::set<std::string> known, named;
+  for (const int group : groups) known.insert(names.of(group));
+  const std::vector<std::string> list(known.begin(), known.end());
+  const auto nodes = table.tables("parts");
+  const std::size_t before = table.report().size();
+  std::set<std::string> with_material;
+  for (std::size_t p = 0; p < structure.parts.size(); ++p) {
+    fem::Part& part = structure.parts[p];
+    const TableReader one(*nodes[p], table.path_of("parts") + '.' + std::to_string(p), "parts", 3, table.report());
+    part.group = names.meant_by(part.group);
+    if (!known.count(part.group)) one.unknown_word("group", part.group, list);
+    else if (!named.insert(part.group).second)
+      one.complain("group", one.path_of("group") + ": the group '" + part.group + "' has a part already; leave out one of them");
+    if (part.material) with_material.insert(part.group);
+  }
+  if (!table.has("material"))
+    for (const std::string& group : list)
+      if (!with_material.count(group))
+        table.complain("parts", table.path() +
+                                    (group == "0" ? ": cells of the mesh that belong to no physical group have no material"
+                                                  : ": the group '" + group + "' of the mesh has no material") +
+                                    "; give the structure a material, or a part of its own with one; the groups are " +
+                                    listed(list));
+  return table.report().size() == before;
+}
+
 /// The file of a gmsh mesh, which has cells of its own.
-bool find_file(const TableReader& table, const TableReader& shape, const Draft& draft, fem::GmshMesh& mesh) {
+bool find_file(const TableReader& table, const TableReader& shape, Draft& draft, fem::Settings& structure, fem::GmshMesh& mesh) {
+  const bool shell = structure.element == fem::ElementKind::shell, meridian = draft.scene.geometry == Geometry::axisymmetric;
+  if (shell && meridian) {
+    table.complain("element",
+                   table.path_of("element") +
+                       " = \"shell\" of a gmsh mesh needs quadrangles in space; in the meridian use \"hexahedron\", or a "
+                       "tube, ring or rod");
+    return false;
+  }
+  if (!shell)
+    for (const auto& [key, given] :
+         {std::pair("thickness", mesh.thickness.has_value()), {"offset", mesh.offset != ShellOffset::mid}})
+      if (given)
+        shape.complain(
+            key, shape.path_of(key) + " is one of shells; leave it out, or take element = \"shell\" and a mesh of quadrangles");
   const std::filesystem::path full = draft.scene.file.parent_path() / mesh.path;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(full, ignored)) {
@@ -31,9 +74,20 @@ bool find_file(const TableReader& table, const TableReader& shape, const Draft& 
   for (const char* key : {"cells", "cell_size"})
     if (table.has(key)) table.complain(key, table.path_of(key) + ": a gmsh mesh has its own cells; leave it out");
   try {
-    const bool meridian = draft.scene.geometry == Geometry::axisymmetric;
-    mesh.read =
-        std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra));
+    std::vector<int> planes;
+    for (int a = 0; a < 3; ++a)
+      if (draft.scene.fluid.symmetry.axis[a]) planes.push_back(a);
+    if (shell) {
+      const QuadrangleSurface surface = read_gmsh_surface(mesh.path);
+      if (!check_groups(table, surface.groups, surface.group_names, structure)) return false;
+      mesh.read = std::make_shared<const HexahedralMesh>(fem::shells_on(surface, mesh, structure.parts, planes));
+    } else {
+      mesh.read =
+          std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra));
+      if (!check_groups(table, mesh.read->groups, mesh.read->group_names, structure)) return false;
+    }
+    for (const std::string& remark : mesh.read->remarks)
+      draft.warnings.add(*shape.find("path"), shape.path_of("path") + ": " + mesh.path + ": " + remark);
   } catch (const std::invalid_argument& mistake) {
     shape.complain("path", shape.path_of("path") + ": " + mistake.what());
     return false;
@@ -55,8 +109,9 @@ void read_cells(const TableReader& table, const Draft& draft, fem::ElementKind e
   mesh = cells.mesh;
 }
 
-bool read_mesh(const TableReader& table, const Draft& draft, fem::ElementKind element, fem::Mesh& into) {
+bool read_mesh(const TableReader& table, Draft& draft, fem::Settings& structure) {
   Report& report = table.report();
+  const fem::ElementKind element = structure.element;
   const Node* node = table.find("shape");
   if (!node) return false;
   const std::string path = table.path_of("shape");
@@ -84,28 +139,59 @@ bool read_mesh(const TableReader& table, const Draft& draft, fem::ElementKind el
     good = report.size() == before_shape;
     if (!good) return;
     if constexpr (Described<fem::Cells<Type>>) read_cells(table, draft, element, mesh);
-    else good = find_file(table, shape, draft, mesh);
-    into = mesh;
+    else good = find_file(table, shape, draft, structure, mesh);
+    structure.mesh = mesh;
+    if (table.has("parts") && !std::is_same_v<Type, fem::GmshMesh>)
+      table.complain("parts", table.path_of("parts") + " are groups of a gmsh mesh; a " + name + " is of one material");
   });
   return good;
 }
 
 /// Is the face one of the mesh's?
-void check_face(const TableReader& table, const char* key, const std::string& face, const std::vector<std::string>& known) {
+void check_face(const TableReader& table, const char* key, const std::string& text, const std::vector<std::string>& known,
+                const GroupNames& names) {
+  const std::string face = names.meant_by(text);
   if (!known.empty() && std::find(known.begin(), known.end(), face) == known.end()) table.unknown_word(key, face, known);
+}
+
+/// What groups of the mesh are made of.
+void read_parts(const TableReader& table, Draft& draft, fem::Settings& structure) {
+  const auto nodes = table.tables("parts");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const TableReader one(*nodes[i], table.path_of("parts") + '.' + std::to_string(i), "parts", 3, table.report());
+    fem::Part part;
+    read_fields(one, part);
+    if (const Node* material = one.find("material"))
+      read_solid_material(*material, one.path_of("material"), draft, part.material.emplace());
+    if (ShellOffset offset{}; one.read_choice("offset", offset, choices<ShellOffset>())) part.offset = offset;
+    if (structure.element != fem::ElementKind::shell)
+      for (const char* key : {"thickness", "offset"})
+        if (one.has(key))
+          one.complain(
+              key, one.path_of(key) + " is one of shells; leave it out, or take element = \"shell\" and a mesh of quadrangles");
+    structure.parts.push_back(std::move(part));
+  }
+}
+
+/// Faces by their names where the scene gives their numbers.
+void take_names(const GroupNames& names, fem::Settings& structure) {
+  for (Support& support : structure.supports) support.face = names.meant_by(support.face);
+  for (fem::PressureLoad& load : structure.loads) load.face = names.meant_by(load.face);
+  for (std::string& face : structure.wet_faces) face = names.meant_by(face);
 }
 
 /// The tables of a list, each with a face of the mesh.
 template <Described Record>
-void read_faces(const TableReader& table, const char* list, const std::vector<std::string>& faces, std::vector<Record>& into,
-                auto&& check) {
+void read_faces(const TableReader& table, const char* list, const std::vector<std::string>& faces, const GroupNames& names,
+                std::vector<Record>& into, auto&& check) {
   const auto nodes = table.tables(list);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const TableReader one(*nodes[i], table.path_of(list) + '.' + std::to_string(i), list, 3, table.report());
     const std::size_t before = table.report().size();
     Record record;
     read_fields(one, record);
-    if (const Node* face = one.find("face"); face && face->kind == Node::Kind::text) check_face(one, "face", record.face, faces);
+    if (const Node* face = one.find("face"); face && face->kind == Node::Kind::text)
+      check_face(one, "face", record.face, faces, names);
     if (table.report().size() == before) check(one, record);
     into.push_back(record);
   }
@@ -127,7 +213,7 @@ void check_load(const TableReader& table, const fem::PressureLoad& load) {
 }  // namespace
 
 void read_supports(const TableReader& table, const std::vector<std::string>& faces, std::vector<Support>& into) {
-  read_faces(table, "supports", faces, into, [](const TableReader&, const Support&) {});
+  read_faces(table, "supports", faces, GroupNames{}, into, [](const TableReader&, const Support&) {});
 }
 
 namespace {
@@ -137,21 +223,32 @@ void read_one(const Node& node, const std::string& path, const std::string& name
   fem::Settings structure;
   structure.name = name;
   const TableReader table(node, path, "structure", 3, draft.report);
+  table.read_choice("element", structure.element, choices<fem::ElementKind>());
+  read_parts(table, draft, structure);
   read_fields(table, structure);
   read_radial(table, structure.radial);
-  const bool shape_good = read_mesh(table, draft, structure.element, structure.mesh);
+  const bool shape_good = read_mesh(table, draft, structure);
   if (const Node* material = table.find("material"))
     read_solid_material(*material, table.path_of("material"), draft, structure.material);
   for (int a = 0; a < 3; ++a)
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
-  const std::vector<std::string> faces =
-      shape_good ? StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis) : std::vector<std::string>{};
-  read_supports(table, faces, structure.supports);
-  read_faces(table, "loads", faces, structure.loads, check_load);
+  std::vector<std::string> faces;
+  if (shape_good) faces = StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis);
+  const auto* gmsh = std::get_if<fem::GmshMesh>(&structure.mesh);
+  const GroupNames names = gmsh && gmsh->read ? gmsh->read->face_names : GroupNames{};
+  read_faces(table, "supports", faces, names, structure.supports, [](const TableReader&, const Support&) {});
+  read_faces(table, "loads", faces, names, structure.loads, check_load);
   structure.planes = draft.scene.solids.planes;
   structure.gravity = draft.scene.fluid.gravity;
-  for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
+  for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces, names);
+  take_names(names, structure);
+  if (!table.has("material"))  // what asks for one of the whole structure gets that of the first part
+    for (const fem::Part& part : structure.parts)
+      if (part.material) {
+        structure.material = *part.material;
+        break;
+      }
   draft.scene.structures.push_back(structure);
   draft.structure_nodes.push_back(&node);
   draft.structure_shape_good.push_back(shape_good);

@@ -148,7 +148,7 @@ std::vector<std::string> StructureShape::faces(const std::array<bool, 3>& symmet
   std::set<int> ids;
   for (const auto& face : mesh_->faces) ids.insert(face.id);
   std::vector<std::string> names;
-  for (const int id : ids) names.push_back(std::to_string(id));
+  for (const int id : ids) names.push_back(mesh_->face_names.of(id));
   return names;
 }
 
@@ -157,7 +157,7 @@ std::vector<Vec3> StructureShape::face_points(const std::string& face) const {
   std::vector<Vec3> points;
   std::vector<std::pair<double, double>> places;  // in the meridian
   for (const auto& each : mesh_->faces) {
-    if (std::to_string(each.id) != face) continue;
+    if (mesh_->face_names.of(each.id) != face) continue;
     if (meridian_) {
       const Vec3 &a = mesh_->nodes[each.nodes[0]], &b = mesh_->nodes[each.nodes[1]];
       for (const Vec3& x : {a, Vec3(0.5 * (a + b)), b}) places.emplace_back(x[0], x[1]);

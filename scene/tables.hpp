@@ -52,6 +52,7 @@ void for_each_table(auto&& visit) {
   visit("radial", "", all_defaults<RadialMotion>(), "");
   visit("walls", "", all_defaults<sph::Wall>(), "");
   visit("structure", "", all_defaults<fem::Settings>(), "");
+  visit("parts", "", all_defaults<fem::Part>(), "");
   visit("supports", "", all_defaults<Support>(), "");
   visit("loads", "", all_defaults<fem::PressureLoad>(), "");
   visit("solids", "", all_defaults<solid::Body>(), "");

@@ -143,6 +143,12 @@ void put_structure(Writer& writer, const fem::Settings& structure, bool listed) 
   std::visit([&](const auto& mesh) { put_mesh(writer, owner, mesh); }, structure.mesh);
   put_radial(writer, owner, structure.radial);
   put_solid_material(writer, owner + ".material", structure.material);
+  for (const fem::Part& part : structure.parts) {
+    writer.table("[[" + owner + ".parts]]", "parts");
+    writer.fields(part);
+    if (part.offset) writer.put("offset", *part.offset);
+    if (part.material) put_solid_material(writer, owner + ".parts.material", *part.material);
+  }
   put_supports(writer, owner, structure.supports);
   for (const fem::PressureLoad& load : structure.loads) {
     writer.table("[[" + owner + ".loads]]", "loads");

@@ -21,7 +21,7 @@ void Validator::structure(const Structure& one) {
              one.path +
                  ".wet is empty, so the water does not see the structure; name the faces that it touches, "
                  "e.g. wet = [\"" +
-                 std::string(shape && shape->mesh() ? "1" : "inner") + "\"]");
+                 (shape && shape->mesh() ? shape->faces(fluid_.symmetry.axis).back() : std::string("inner")) + "\"]");
   if (draft_.body_nodes.empty() && !one.settings->wet_faces.empty())
     complain(node, "wet", one.path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
   if (fluid && shape && draft_.spacing_good && all_usable())

@@ -45,6 +45,42 @@ def two_cubes(version):
     return "\n".join([*lines, "$EndElements", ""])
 
 
+def tee(version):
+    """A plate of 2 x 2 quadrangles with a stiffener on it, and a second one across; of the second order where version is 2.1."""
+    tags, nodes = {}, []
+
+    def node(*x):
+        if x not in tags:
+            tags[x] = len(nodes) + 1
+            nodes.append(x)
+        return tags[x]
+
+    quads = [(1, [node(i + a, j + b, 0) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]) for i in range(2) for j in range(2)]
+    quads += [(2, [node(i, 1, 0), node(i + 1, 1, 0), node(i + 1, 1, 1), node(i, 1, 1)]) for i in range(2)]
+    quads += [(3, [node(1, j, 0), node(1, j + 1, 0), node(1, j + 1, 1), node(1, j, 1)]) for j in range(2)]
+    edge = [node(0, 0, 0), node(1, 0, 0)]
+    words = lambda numbers: " ".join(map(str, numbers))
+    middle = lambda a, b: node(*(0.5 * (p + q) for p, q in zip(nodes[a - 1], nodes[b - 1])))
+    kind = 3
+    if version == 2.1:
+        kind = 16
+        quads = [(group, quad + [middle(quad[k], quad[(k + 1) % 4]) for k in range(4)]) for group, quad in quads]
+    lines = ["$MeshFormat", f"{2.2 if version == 2.1 else version} 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '1 5 "edge"', '2 1 "plate"', '2 2 "bars"',
+             "$EndPhysicalNames"]
+    if version < 4:
+        lines += ["$Nodes", str(len(nodes)), *(words((tag + 1, *x)) for tag, x in enumerate(nodes)), "$EndNodes"]
+        lines += ["$Elements", str(len(quads) + 1), f"1 1 2 5 5 {words(edge)}"]
+        lines += [f"{k + 2} {kind} 2 {group} {group} {words(quad)}" for k, (group, quad) in enumerate(quads)]
+    else:
+        lines += ["$Entities", "0 1 3 0", "5 0 0 0 1 0 0 1 5 0", *(f"{g} 0 0 0 2 2 1 1 {g} 0" for g in (1, 2, 3)), "$EndEntities"]
+        lines += ["$Nodes", f"1 {len(nodes)} 1 {len(nodes)}", f"2 1 0 {len(nodes)}", *map(str, range(1, len(nodes) + 1)), *map(words, nodes)]
+        lines += ["$EndNodes", "$Elements", f"4 {len(quads) + 1} 1 {len(quads) + 1}", "1 5 1 1", f"1 {words(edge)}"]
+        for g in (1, 2, 3):
+            mine = [(k, quad) for k, (group, quad) in enumerate(quads) if group == g]
+            lines += [f"2 {g} 3 {len(mine)}", *(f"{k + 2} {words(quad)}" for k, quad in mine)]
+    return "\n".join([*lines, "$EndElements", ""])
+
+
 def keys_of(page):
     """Words in the tables of a page: keys, and values in quotes."""
     text = "\n".join(line for line in page.read_text().splitlines() if line.startswith("|"))
@@ -63,6 +99,7 @@ def main(project, output):
     for path in sorted(project.rglob("tests/unit/**/*.msh")):
         inputs["mesh"][path.name] = path.read_text()
     inputs["mesh"].update({f"two_cubes_{version}.msh": two_cubes(version) for version in (2.2, 4.1)})
+    inputs["mesh"].update({f"tee_{version}.msh": tee(version) for version in (2.1, 2.2, 4.1)})
     inputs["record"] = {"full": json.dumps(RECORD, indent=2), "least": '{"scene": "a", "status": "done"}'}
 
     scene_words = keys_of(project / "docs" / "scene-file.md")

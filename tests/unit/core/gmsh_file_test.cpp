@@ -177,7 +177,9 @@ TEST(GmshFile, MistakesNameFileAndLine) {
   expect(with(cubes_2, "\n3 0 1 1", "\n3 2 1 1"), "m.msh:27: the hexahedron near");
   expect(with(cubes_2, "3 5 2 1 1 1 5 6 2 4 8 7 3", "3 4 2 1 1 1 5 6 2"),
          "m.msh:27: a tetrahedron: the mesh must hold hexahedra only");
-  expect(with(cubes_2, "3 5 2 1 1 1", "3 17 2 1 1 1"), "m.msh:27: elements of type 17 are not read");
+  expect(with(cubes_2, "3 5 2 1 1 1", "3 17 2 1 1 1"),
+         "m.msh:27: a hexahedron of second order with 2 groups needs 25 numbers, here are 13");
+  expect(with(cubes_2, "3 5 2 1 1 1", "3 92 2 1 1 1"), "m.msh:27: elements of type 92 are not read");
   expect(with(cubes_2, "\n4\n1 3 2", "\n2\n1 3 2"), "m.msh:27: $Elements: here should be $EndElements, not '3'");
   expect(with(cubes_2, "\n4 5 2 1 1 5", "\n3 5 2 1 1 5"), "m.msh:28: the element 3 is there twice");
   expect(with(cubes_2, "2 3 2 8 8 9 10 11 12", "2 3 2 8 8 5 6 7 8"), "m.msh:26: the quadrangle of group 8 lies inside the mesh");
@@ -268,7 +270,7 @@ TEST(GmshFile, MistakesOfMeridiansAreRefused) {
   };
   refused(cubes_2, "m.msh:27: a hexahedron: the mesh of an axisymmetric body must hold quadrangles");
   refused(with(squares, "6 3 2 1 1 1 2 5 4", "6 2 2 1 1 1 2 5"), "m.msh:20: a triangle: the mesh of an axisymmetric body");
-  refused(with(squares, "6 3 2 1 1 1 2 5 4", "6 16 2 1 1 1 2 5 4"), "elements of type 16");
+  refused(with(squares, "6 3 2 1 1 1 2 5 4", "6 20 2 1 1 1 2 5 4"), "elements of type 20");
   refused(with(squares, "6 2 1 0", "6 2 1 0.1"), "m.msh:11: the node 6 at (2, 1, 0.1) m lies off the plane z = 0");
   refused(with(squares, "4 0 1 0", "4 -0.1 1 0"), "m.msh:9: the node 4 at (-0.1, 1, 0) m lies beyond the axis");
   refused(with(squares, "1 2 5 4", "1 2 4 5"), "m.msh:20: the quadrangle near (0, 0, 0) m is inverted or flat");
@@ -357,6 +359,100 @@ TEST(GmshFile, ChangedNumbersAreRefusedOrGiveSoundCells) {
     }
   EXPECT_GT(sound, 100);
   EXPECT_GT(refused, 4000);
+}
+
+TEST(GmshFile, GroupsHaveNamesAndNumbers) {
+  for (const std::string& text : {cubes_2, cubes_4}) {
+    std::string named = text;
+    if (text == cubes_4)
+      named = with(named, "$EndMeshFormat\n",
+                   "$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"all of it\"\n2 7 \"wet side\"\n$EndPhysicalNames\n");
+    else named = with(named, "1\n2 7", "2\n3 1 \"all of it\"\n2 7");
+    const HexahedralMesh mesh = parse_gmsh(named, "m.msh");
+    EXPECT_EQ(mesh.face_names.of(7), "wet side");
+    EXPECT_EQ(mesh.face_names.of(8), "8");
+    EXPECT_EQ(mesh.face_names.meant_by("7"), "wet side");
+    EXPECT_EQ(mesh.face_names.meant_by("8"), "8");
+    ASSERT_EQ(mesh.groups.size(), 2u);
+    EXPECT_EQ(mesh.group_names.of(mesh.groups[0]), "all of it");
+  }
+  expect(with(cubes_2, "2 7 \"wet side\"", "2 7 wet"), "m.msh:6: the name of a group must end its line, in quotes");
+  expect(with(cubes_2, "2 7 \"wet side\"", "2 7 \"a\\b\""), "m.msh:6: a group's name must be 1 to 127 letters");
+  expect(with(cubes_2, "2 7 \"wet side\"", "2 7 \"8\""), "the name of the group 7 is the number 8");
+  expect(with(cubes_2, "1\n2 7 \"wet side\"", "2\n2 7 \"a\"\n2 8 \"a\""), "m.msh:7: two groups of dimension 2 have the name 'a'");
+  expect(with(cubes_2, "1\n2 7 \"wet side\"", "2\n2 7 \"a\"\n2 7 \"b\""), "m.msh:7: the group 7 of dimension 2 is named twice");
+  expect(with(cubes_2, "1\n2 7 \"wet side\"", "3\n2 7 \"a\""), "$PhysicalNames: the counts do not fit");
+  expect(with(cubes_4, "1 0 0 0 2 1 1 1 1 2 7 8", "1 0 0 0 2 1 1 2 1 2 2 7 8"),
+         "the volume 1 belongs to 2 physical groups, but a cell has one material");
+}
+
+TEST(GmshFile, OfTheSecondOrderTheCornersAreTaken) {
+  // One cube of 20 nodes, whose middles need not be those of its edges.
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n20\n";
+  const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (int i = 0; i < 8; ++i)
+    text += std::to_string(i + 1) + " " + std::to_string(corner[i][0]) + " " + std::to_string(corner[i][1]) + " " +
+            std::to_string(corner[i][2]) + "\n";
+  for (int i = 8; i < 20; ++i) text += std::to_string(i + 1) + " 0.5 " + std::to_string(0.01 * i) + " 0.5\n";
+  text +=
+      "$EndNodes\n$Elements\n2\n1 16 2 3 3 1 2 3 4 9 12 14 10\n2 17 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 "
+      "20\n$EndElements\n";
+  const HexahedralMesh mesh = parse_gmsh(text, "m.msh");
+  EXPECT_EQ(mesh.nodes.size(), 8u);
+  EXPECT_DOUBLE_EQ(volume(mesh), 1.0);
+  ASSERT_EQ(mesh.remarks.size(), 1u);
+  EXPECT_NE(mesh.remarks[0].find("of the second order"), std::string::npos);
+  expect(with(cubes_2, "3 5 2 1 1 1 5 6 2 4 8 7 3", "3 11 2 1 1 1 5 6 2 4 8 7 3 9 10"),
+         "a tetrahedron of second order: the mesh must hold hexahedra only");
+  expect(with(cubes_2, "3 5 2 1 1 1 5 6 2 4 8 7 3", "3 6 2 1 1 1 5 6 2 4 8"), "Mesh.SubdivisionAlgorithm = 2");
+}
+
+TEST(GmshFile, QuadranglesInSpaceAreASurface) {
+  const std::string text = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 5 "edge"
+2 7 "plate"
+$EndPhysicalNames
+$Nodes
+7
+1 0 0 0
+2 1 0 0
+3 2 0 0.5
+4 0 1 0
+5 1 1 0
+6 2 1 0.5
+9 9 9 9
+$EndNodes
+$Elements
+4
+1 1 2 5 1 1 4
+2 3 2 7 1 1 2 5 4
+3 3 2 8 1 2 3 6 5
+4 15 2 0 1 9
+$EndElements
+)";
+  const QuadrangleSurface surface = parse_gmsh_surface(text, "m.msh");
+  EXPECT_EQ(surface.nodes.size(), 6u);
+  EXPECT_EQ(surface.cells.size(), 2u);
+  EXPECT_EQ(surface.group_names.of(surface.groups[0]), "plate");
+  EXPECT_EQ(surface.group_names.of(surface.groups[1]), "8");
+  ASSERT_EQ(surface.edges.size(), 1u);
+  EXPECT_EQ(surface.edge_names.of(surface.edges[0].id), "edge");
+  const auto refused = [&](const std::string& old, const std::string& replacement, const std::string& expected) {
+    try {
+      parse_gmsh_surface(with(text, old, replacement), "m.msh");
+      ADD_FAILURE() << "read: " << replacement;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  };
+  refused("1 1 2 5 4", "1 1 5 2 4", "m.msh:22: the quadrangle near (0, 0, 0) m is flat or folded");
+  refused("3 3 2 8 1 2 3 6 5", "3 3 2 8 1 1 2 5 4", "m.msh:23: this quadrangle has the nodes of that of line 22");
+  refused("3 3 2 8 1 2 3 6 5", "3 2 2 8 1 2 3 6", "a triangle: the mesh of a shell must hold quadrangles only");
+  refused("3 3 2 8 1 2 3 6 5", "3 5 2 8 1 1 2 3 4 5 6 7 9", "a hexahedron: the mesh of a shell must hold quadrangles only");
 }
 
 }  // namespace

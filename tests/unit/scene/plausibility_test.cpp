@@ -360,6 +360,78 @@ TEST_F(GmshScene, PiecesThatShareNoNodeAreSaid) {
   expect(found("2"), "cubes.msh:2: the file ends within $MeshFormat");
 }
 
+/// A flange of 0.3 m x 0.2 m with a web under it, of shells.
+class GmshShells : public GmshScene {
+ protected:
+  std::string found(const std::string& structure) {
+    const std::string mesh = std::string(UNDEX_ROOT) + "/tests/unit/scene/";
+    try {
+      std::string all;
+      const std::string text =
+          with(with("end_time = 1e-5\n[structure]\n" + structure, "TEE", mesh + "tee.msh"), "CUBES", mesh + "cubes.msh");
+      for (const std::string& warning : read(scratch_.write(text)).warnings) all += "warning: " + warning;
+      return all;
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+  }
+  static std::string with(std::string text, const std::string& old, const std::string& replacement) {
+    const std::size_t at = text.find(old);
+    return at == std::string::npos ? text : text.replace(at, old.size(), replacement);
+  }
+};
+
+TEST_F(GmshShells, GroupsAndThicknessAreChecked) {
+  const std::string shell = "element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\", thickness = 0.01}\n",
+                    steel = "material = \"steel-4340\"\n";
+  EXPECT_EQ(found(shell + steel), "");
+  EXPECT_EQ(
+      found(shell + "parts = [{group = \"web\", material = \"steel-4340\"}, {group = \"1\", material = \"copper-ofhc\"}]\n"), "");
+  expect(found(shell), "structure.material is missing");
+  expect(found(shell + "parts = [{group = \"web\", material = \"steel-4340\"}]\n"),
+         "the group 'flange' of the mesh has no material");
+  expect(found(shell + steel + "parts = [{group = \"wep\", thickness = 0.02}]\n"), "structure.parts.0.group = \"wep\"");
+  expect(found(shell + steel + "parts = [{group = \"wep\", thickness = 0.02}]\n"), "web");
+  expect(found(shell + steel + "parts = [{group = \"web\", thickness = 0.02}, {group = \"2\", thickness = 0.01}]\n"),
+         "structure.parts.1.group: the group 'web' has a part already");
+  expect(found(shell + steel + "parts = [{group = \"web\", offset = \"middle\"}]\n"), "structure.parts.0.offset");
+  expect(found(shell + steel + "parts = [{group = \"web\", thickness = 0}]\n"), "structure.parts.0.thickness");
+  expect(found(shell + steel + "supports = [{face = \"rot\"}]\n"), "root");
+  expect(found(shell + steel + "wet = [\"flange\"]\n"), "flange.bottom");
+  const std::string bare = "element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\"}\n" + steel;
+  expect(found(bare), "the shells of the group 'flange' have no thickness; give shape.thickness, or a part {group = \"flange\"");
+  EXPECT_EQ(found(bare + "parts = [{group = \"web\", thickness = 0.01}, {group = \"flange\", thickness = 0.02}]\n"), "");
+  expect(found(bare + "parts = [{group = \"web\", thickness = 0.01}, {group = \"flange\", thickness = 0.3}]\n"),
+         "too thick for its cells");
+  // Hexahedra where quadrangles are, and the other way round.
+  expect(found("shape = {type = \"gmsh\", path = \"TEE\"}\n" + steel),
+         "or element = \"shell\" with a thickness for its quadrangles");
+  expect(found("element = \"shell\"\nshape = {type = \"gmsh\", path = \"CUBES\", thickness = 0.1}\n" + steel),
+         "a hexahedron: the mesh of a shell must hold quadrangles only");
+  const std::string solid = "shape = {type = \"gmsh\", path = \"CUBES\"}\n" + steel;
+  EXPECT_EQ(found(solid), "");
+  expect(found(solid + "parts = [{group = \"1\", thickness = 0.1}]\n"), "structure.parts.0.thickness is one of shells");
+  expect(found("shape = {type = \"gmsh\", path = \"CUBES\", offset = \"top\"}\n" + steel),
+         "structure.shape.offset is one of shells");
+  expect(found("shape = {type = \"plate\", low = [0, 0, 0], high = [1, 1, 0.1]}\nparts = [{group = \"1\"}]\n" + steel),
+         "structure.parts are groups of a gmsh mesh; a plate is of one material");
+}
+
+TEST_F(GmshScene, FacesAreCalledByNameOrNumber) {
+  std::ifstream file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh");
+  std::ostringstream mesh;
+  mesh << file.rdbuf();
+  scratch_.write(mesh.str(), "cubes.msh");
+  const std::string text = R"(end_time = 1e-5
+[structure]
+shape = {type = "gmsh", path = "cubes.msh"}
+material = "steel-4340"
+supports = [{face = "7"}, {face = "wet side", fixed = ["x"]}]
+)";
+  const scene::Scene scene = read(scratch_.write(text));
+  for (const Support& support : scene.structures.front().supports) EXPECT_EQ(support.face, "wet side");
+}
+
 TEST(Plausibility, PlacesAreKnownAfterReading) {
   const scene::Scene scene = read_text(coupled_tube, {{"structure.courant", "0.5"}});
   EXPECT_EQ(scene.places.finding("bodies.water.shape", "").where.line, 16);
