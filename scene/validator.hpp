@@ -117,6 +117,7 @@ class Validator {
   // validate_probes.cpp
   double distance_to_solids(const Vec3& x) const;
   void probe(const Probe& probe, const Node& node);
+  void one_dimensional();
 
   Draft& draft_;
   Scene& scene_;
