@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/largest.hpp"
 #include "core/point_values.hpp"
 #include "core/state.hpp"
 #include "core/surface.hpp"
@@ -118,8 +119,10 @@ class DeformableBody : public WetBody {
   /// What the next step goes on from, and what others read until then.
   virtual void visit_state(StateVisitor& state) = 0;
 
-  virtual std::span<const Vec3> positions() const = 0;     ///< of nodes or particles [m]
-  virtual std::span<const double> masses() const = 0;      ///< of the same [kg]
+  virtual std::span<const Vec3> positions() const = 0;  ///< of nodes or particles [m]
+  virtual std::span<const double> masses() const = 0;   ///< of the same [kg]
+  /// Largest values now, of each of the parts it is made of: of particles also the pressure.
+  virtual std::vector<LargestOf> largest() const { return {}; }
   virtual double maximum_pressure() const { return 0.0; }  ///< of particles [Pa]
   /// Position and fields. Of particles those that are named; elements give all that they have.
   virtual BodySnapshot snapshot(std::span<const std::string> fields) const = 0;

@@ -53,6 +53,11 @@ class ElementSet {
   virtual double temperature(std::size_t cell, int q) const = 0;  ///< [K]
   /// Share of the fracture strain spent, 1: failed; 0 where the material cannot fail.
   virtual double damage(std::size_t cell, int q) const = 0;
+  /// Of all points, cell by cell in equal strides, of which the first points_per_cell() count; no damages where the material
+  /// cannot fail.
+  std::span<const double> plastic_strains() const { return plastic_strain_; }
+  std::span<const double> temperatures() const { return temperature_; }
+  std::span<const double> damages() const { return damage_; }
   virtual std::size_t memory_bytes() const = 0;
   virtual void visit_state(StateVisitor& state);
 

@@ -56,6 +56,9 @@ class Structure : public DeformableBody {
   Vec3 plane_impulse() const;  ///< received from the rigid planes since the start [N s]
   std::span<const Vec3> positions() const override;
   std::span<const double> masses() const override;
+  /// Speed of nodes; plastic strain, temperature and damage (of materials that can fail) of points, at the middles of their
+  /// cells.
+  std::vector<LargestOf> largest() const override;
   /// displacement and velocity of nodes; pressure, von_mises, plastic_strain and temperature of cells, means over their points.
   BodySnapshot snapshot(std::span<const std::string> fields = {}) const override;
 

@@ -49,6 +49,12 @@ void write_all(const hdf5::File& file, const Evidence& evidence) {
                      fields = file.ordered_group(file, "fields");
   for (const auto& [name, samples] : evidence.probes) write_samples(file, file.ordered_group(histories, name), samples);
   write_samples(file, energy, evidence.energy);
+  if (!evidence.bodies.columns.empty()) write_samples(file, file.ordered_group(file, "bodies"), evidence.bodies);
+  if (!evidence.forces.columns.empty()) write_samples(file, file.ordered_group(file, "forces"), evidence.forces);
+  if (!evidence.lines.empty()) {
+    const hdf5::Handle lines = file.ordered_group(file, "lines");
+    for (const auto& [name, samples] : evidence.lines) write_samples(file, file.ordered_group(lines, name), samples);
+  }
   for (const auto& [name, field] : evidence.fields)
     file.dataset(fields, name, std::span<const double>(field.values), static_cast<std::size_t>(field.components));
   file.flush();
@@ -95,6 +101,14 @@ Evidence read_evidence(const fs::path& path) {
   for (const std::string& name : file.members(histories))
     evidence.probes[name] = read_samples(file, file.open_group(histories, name), path, name);
   evidence.energy = read_samples(file, file.open_group(file, "energy"), path, "energy");
+  // An older program's has none of the following.
+  for (const auto& [name, samples] : {std::pair{"bodies", &evidence.bodies}, {"forces", &evidence.forces}})
+    if (file.has(file, name)) *samples = read_samples(file, file.open_group(file, name), path, name);
+  if (file.has(file, "lines")) {
+    const hdf5::Handle lines = file.open_group(file, "lines");
+    for (const std::string& name : file.members(lines))
+      evidence.lines[name] = read_samples(file, file.open_group(lines, name), path, name);
+  }
   for (const std::string& name : file.members(fields)) {
     hdf5::File::Values read = file.read(file.open_dataset(fields, name));
     evidence.fields[name] = {.components = static_cast<int>(read.columns), .values = std::move(read.values)};

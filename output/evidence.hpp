@@ -24,6 +24,9 @@ struct Evidence {
   double time = 0;                          ///< that the run has reached [s]
   std::map<std::string, Samples> probes;    ///< histories by the probe's name
   Samples energy;                           ///< as in energy.csv
+  Samples bodies;                           ///< as in bodies.csv; without columns where the run has none
+  Samples forces;                           ///< as in forces.csv; likewise
+  std::map<std::string, Samples> lines;     ///< as in lines/<name>.csv, by the line's name
   std::map<std::string, LastField> fields;  ///< of the last state, such as "fluid.pressure"
 
   /// A column of a probe over time; empty where there is none.

@@ -201,6 +201,8 @@ Handle File::open_dataset(hid_t parent, const std::string& name) const {
   return Handle(check(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), "read"));
 }
 
+bool File::has(hid_t where, const std::string& name) const { return H5Lexists(where, name.c_str(), H5P_DEFAULT) > 0; }
+
 std::vector<std::string> File::members(hid_t group) const {
   H5G_info_t info{};
   check(H5Gget_info(group, &info), "read");

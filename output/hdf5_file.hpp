@@ -68,6 +68,8 @@ class File {
   // Of a file that is read; a failure says that the file is damaged.
   Handle open_group(hid_t parent, const std::string& name) const;
   Handle open_dataset(hid_t parent, const std::string& name) const;
+  /// Is there a group of that name?
+  bool has(hid_t where, const std::string& name) const;
   /// Names of the members of an ordered group, as they were made.
   std::vector<std::string> members(hid_t group) const;
   double number(hid_t object, const char* attribute) const;

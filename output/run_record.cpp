@@ -58,6 +58,32 @@ nlohmann::ordered_json object(const ObstacleRecord& obstacle) {
   return json;
 }
 
+constexpr std::pair<const char*, const char*> keys_of_quantities[] = {{"pressure", "pressure_pa"},
+                                                                      {"speed", "speed_m_s"},
+                                                                      {"plastic_strain", "plastic_strain"},
+                                                                      {"damage", "damage"},
+                                                                      {"temperature", "temperature_k"}};
+
+nlohmann::ordered_json object(const std::vector<LargestRecord>& all) {
+  nlohmann::ordered_json json;
+  for (const auto& [quantity, key] : keys_of_quantities)
+    for (const LargestRecord& each : all)
+      if (each.quantity == quantity)
+        json[key][each.part] = {{"value", each.value}, {"place_m", each.place}, {"time_s", each.time_s}};
+  return json;
+}
+
+nlohmann::ordered_json object(const BubbleRecord& bubble) {
+  nlohmann::ordered_json json;
+  json["body"] = bubble.body;
+  json["largest_radius_m"] = bubble.largest_radius_m;
+  json["largest_radius_time_s"] = bubble.largest_radius_time_s;
+  json["least_radius_m"] = bubble.least_radius_m;
+  json["period_s"] = bubble.period_s;
+  if (!bubble.missing.empty()) json["missing"] = bubble.missing;
+  return json;
+}
+
 // The value at `key`, null as NaN; `value` stays as it is where there is no such key, or it holds something else.
 template <class Number>
 void get(const nlohmann::ordered_json& json, const char* key, Number& value) {
@@ -122,6 +148,32 @@ ObstacleRecord obstacle(const nlohmann::ordered_json& json) {
   return obstacle;
 }
 
+std::vector<LargestRecord> largest(const nlohmann::ordered_json& json) {
+  std::vector<LargestRecord> all;
+  for (const auto& [quantity, key] : keys_of_quantities) {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_object()) continue;
+    for (const auto& [part, each] : found->items()) {
+      if (!each.is_object()) continue;
+      LargestRecord& record = all.emplace_back(LargestRecord{.part = part, .quantity = quantity, .place = list(each, "place_m")});
+      get(each, "value", record.value);
+      get(each, "time_s", record.time_s);
+    }
+  }
+  return all;
+}
+
+BubbleRecord bubble(const nlohmann::ordered_json& json) {
+  BubbleRecord bubble;
+  bubble.body = text(json, "body");
+  get(json, "largest_radius_m", bubble.largest_radius_m);
+  get(json, "largest_radius_time_s", bubble.largest_radius_time_s);
+  get(json, "least_radius_m", bubble.least_radius_m);
+  get(json, "period_s", bubble.period_s);
+  bubble.missing = text(json, "missing");
+  return bubble;
+}
+
 nlohmann::ordered_json summary_at(const std::filesystem::path& path) {
   require_file(path);
   std::ifstream file(path);
@@ -168,6 +220,8 @@ std::string to_json(const RunRecord& record) {
   if (record.interface_impulse_error) json["interface_impulse_error"] = *record.interface_impulse_error;
   for (const StructureRecord& structure : record.structures) json["structures"].push_back(object(structure));
   for (const ObstacleRecord& obstacle : record.obstacles) json["obstacles"].push_back(object(obstacle));
+  if (!record.largest.empty()) json["largest"] = object(record.largest);
+  for (const BubbleRecord& each : record.bubbles) json["bubbles"].push_back(object(each));
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   json["passes"] = object(record.passes);
@@ -223,6 +277,10 @@ RunRecord read_summary(const std::filesystem::path& path) {
   if (const auto found = json.find("obstacles"); found != json.end() && found->is_array())
     for (const auto& each : *found)
       if (each.is_object()) record.obstacles.push_back(obstacle(each));
+  if (const auto found = json.find("largest"); found != json.end() && found->is_object()) record.largest = largest(*found);
+  if (const auto found = json.find("bubbles"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_object()) record.bubbles.push_back(bubble(each));
   for (const auto& [name, count] : numbers(json, "clamps"))
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
   record.passes = numbers(json, "passes");

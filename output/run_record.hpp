@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,25 @@ struct StructureRecord {
   std::vector<double> impulse;        ///< by the water since the start, of the computed part [N s]
 };
 
+/// The largest value of a quantity over a part of the scene and the whole run.
+struct LargestRecord {
+  std::string part;           ///< name of the body, solid or structure
+  std::string quantity;       ///< of core/largest.hpp
+  double value = 0;           ///< [SI]
+  std::vector<double> place;  ///< as many components as the scene [m]
+  double time_s = 0;
+};
+
+/// Of a body of gas in a liquid. NaN: the run has not come to it.
+struct BubbleRecord {
+  std::string body;
+  double largest_radius_m = std::numeric_limits<double>::quiet_NaN();  ///< of the sphere (in two dimensions circle) of its volume
+  double largest_radius_time_s = std::numeric_limits<double>::quiet_NaN();
+  double least_radius_m = std::numeric_limits<double>::quiet_NaN();  ///< the first after that
+  double period_s = std::numeric_limits<double>::quiet_NaN();        ///< its time
+  std::string missing;                                               ///< why; left out when empty
+};
+
 struct RunRecord {
   std::string scene;    ///< its name
   std::string status;   ///< "done", or why it ended: "stopped", "interrupted", ...
@@ -63,6 +83,8 @@ struct RunRecord {
   std::string program;                      ///< version text; left out when empty
   std::vector<StructureRecord> structures;  ///< of several; left out when empty
   std::vector<ObstacleRecord> obstacles;    ///< left out when empty
+  std::vector<LargestRecord> largest;       ///< likewise
+  std::vector<BubbleRecord> bubbles;        ///< likewise
   std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
   NamedNumbers passes;                                       ///< seconds per named pass
   NamedNumbers metrics;                                      ///< results of the scene's comparison

@@ -20,6 +20,8 @@ constexpr int steps_to_merge = 16;    // behind a front that is followed
 constexpr double just_before = 1e-9;  // a probe, and just behind it: share of its place
 // Width that cells may have, over their distance from the front: as merged behind one that is followed, or is not.
 constexpr double behind_followed = 1.0 / 50, behind_smeared = 1.0 / 800;
+// And over their radius: the flow round a bubble, u ~ 1/r^2, outlasts the wave.
+constexpr double of_radius = 1.0 / 32;
 
 /// Lays a layer out in cells of about the widths that the line asks for. Where the wave's front will be followed they need only
 /// begin so: the front leaves new ones behind.
@@ -110,8 +112,10 @@ LineFlow::LineFlow(const scene::Scene& scene)
       spacing_(scene.fluid.lattice.spacing),
       around_(scene.fluid.surroundings.pressure),
       mesh_(mesh_of(scene, line_)) {
-  for (const scene::LineLayer& layer : line_.layers)
+  for (const scene::LineLayer& layer : line_.layers) {
     material_.push_back(double(layer.index + (layer.is_solid ? scene.fluid.bodies.size() : 0)));
+    names_.push_back(layer.is_solid ? scene.solids.bodies[layer.index].name : scene.fluid.bodies[layer.index].name);
+  }
   for (const scene::Probe& probe : scene.probes)
     if (probe.kind == scene::Probe::Kind::fluid) probes_.push_back(place_of(probe.point));
   std::sort(probes_.begin(), probes_.end());
@@ -154,12 +158,18 @@ void LineFlow::look_for_front() {
   merge(behind_smeared, line_.cell_width(line_.core_high + front_, spacing_));
 }
 
-/// Merges cells that are narrower than `width` [m] and so much more for every metre behind the front.
+/// Merges cells that are narrower than `width` [m] and so much more for every metre behind the front, in spheres up to their
+/// share of the radius.
 void LineFlow::merge(double growth, double width) {
   merged_at_ = front_;
   mesh_.end_burns();
   const double at = line_.core_high + front_;
-  mesh_.coarsen([=](double place) { return width + growth * std::max(0.0, at - place); }, least_cells);
+  mesh_.coarsen(
+      [=, this](double place) {
+        const double behind = width + growth * std::max(0.0, at - place);
+        return spherical_ ? std::min(behind, std::max(width, of_radius * place)) : behind;
+      },
+      least_cells);
 }
 
 void LineFlow::visit_state(StateVisitor& state) {
@@ -206,6 +216,73 @@ double LineFlow::compression_energy() const {
 double LineFlow::maximum_pressure() const {
   const auto p = mesh_.cell_pressure();
   return *std::max_element(p.begin(), p.end());
+}
+
+std::vector<LayerTotals> LineFlow::totals() const {
+  const auto u = mesh_.node_velocity(), r = mesh_.node_radius(), m = mesh_.cell_mass(), e = mesh_.cell_energy(),
+             rho = mesh_.cell_density(), p = mesh_.cell_pressure();
+  std::vector<LayerTotals> all;
+  for (int k = 0; k < mesh_.layers(); ++k) {
+    const auto* fluid = std::get_if<materials::FluidLaw>(&mesh_.layer(k).law);
+    if (!fluid) continue;
+    const std::size_t body = line_.layers[k].index;
+    if (all.size() <= body) all.resize(body + 1);
+    LayerTotals& one = all[body];
+    const int begin = mesh_.first_cell(k), end = k + 1 < mesh_.layers() ? mesh_.first_cell(k + 1) : mesh_.cells();
+    std::visit(
+        [&](const auto& law) {
+          using Law = std::remove_cvref_t<decltype(law)>;
+          for (int i = begin; i < end; ++i) {
+            const double inner = mesh_.inner_velocity(i), volume = m[i] / rho[i];
+            one.mass += m[i];
+            one.volume += volume;
+            one.kinetic += 0.25 * m[i] * (inner * inner + u[i + 1] * u[i + 1]);
+            if constexpr (Law::uses_energy) one.internal += m[i] * e[i];
+            else one.internal += m[i] * law.barotropic_energy(rho[i]);
+            one.pressure_volume += volume * p[i];
+            if constexpr (!Law::is_gas)
+              if (const double share = law.void_fraction(rho[i], e[i]); share > 0) {
+                one.cavitated += volume;
+                one.voids += share * volume;
+              }
+            one.moment += m[i] * 0.5 * (r[i] + r[i + 1]);
+          }
+        },
+        *fluid);
+  }
+  return all;
+}
+
+std::vector<LargestOf> LineFlow::largest() const {
+  const auto u = mesh_.node_velocity(), r = mesh_.node_radius(), p = mesh_.cell_pressure();
+  std::vector<LargestOf> all;
+  for (int k = 0; k < mesh_.layers(); ++k) {
+    const int begin = mesh_.first_cell(k), end = k + 1 < mesh_.layers() ? mesh_.first_cell(k + 1) : mesh_.cells();
+    LargestOf found{names_[k], {}};
+    const auto look = [&](const char* quantity, int nodes, auto of) {
+      const int last = end + nodes;
+      double most[4] = {-1e300, -1e300, -1e300, -1e300};  // of every fourth: four chains, for this is asked after every step
+      int i = begin;
+      for (; i + 4 <= last; i += 4)
+        for (int lane = 0; lane < 4; ++lane) most[lane] = std::max(most[lane], of(i + lane));
+      for (; i < last; ++i) most[0] = std::max(most[0], of(i));
+      const double value = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+      i = begin;
+      while (i + 1 < last && of(i) != value) ++i;
+      found.quantities.push_back(
+          {quantity, {.value = value, .place = point_at(nodes ? r[i] : 0.5 * (r[i] + r[i + 1])), .owner = std::uint32_t(i)}});
+    };
+    look("pressure", 0, [&](int i) { return p[i]; });
+    look("speed", 1, [&](int i) { return std::abs(u[i]); });
+    if (is_solid(begin)) {
+      look("plastic_strain", 0, [&](int i) { return mesh_.solids().plastic_strain[i]; });
+      if (materials::can_fail(std::get<materials::Solid>(mesh_.layer(k).law)))
+        look("damage", 0, [&](int i) { return mesh_.solids().damage[i]; });
+      look("temperature", 0, [&](int i) { return mesh_.solids().temperature[i]; });
+    }
+    all.push_back(std::move(found));
+  }
+  return all;
 }
 
 double LineFlow::place_of(const Vec3& x) const { return spherical_ ? (x - line_.center).norm() : x[0]; }

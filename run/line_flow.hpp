@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/largest.hpp"
 #include "core/point_values.hpp"
 #include "exact/lagrangian_1d.hpp"
 #include "run/driver.hpp"
@@ -28,6 +29,15 @@ struct LineLedger {
   long step = -1;                                      ///< after which it was drawn up
 };
 
+/// A layer of fluid, of the whole sphere; in a plane per area [m^2].
+struct LayerTotals {
+  double mass = 0, volume = 0;       ///< [kg], [m^3]
+  double kinetic = 0, internal = 0;  ///< as in the ledger [J]
+  double pressure_volume = 0;        ///< integral of the pressure over the volume [J]
+  double cavitated = 0, voids = 0;   ///< volume of cells that have a void fraction, integral of that [m^3]
+  double moment = 0;                 ///< integral of x over mass, in a plane [kg m]
+};
+
 class LineFlow {
  public:
   /// Throws SceneError where the mesh refuses the scene.
@@ -39,12 +49,16 @@ class LineFlow {
   void visit_state(StateVisitor& state);
   const exact::Lagrangian1D& mesh() const { return mesh_; }
   const scene::Line& line() const { return line_; }
+  bool is_plane() const { return !spherical_; }
 
   const LineLedger& ledger() const;  ///< of the present state; drawn up when somebody asks
   bool pushed_at_ends() const { return spherical_ || line_.closed[0] || line_.closed[1]; }
   /// Kinetic energy of small waves against the present pressure [J]: sum of V p^2/(2 rho c^2).
   double compression_energy() const;
   double maximum_pressure() const;
+  std::vector<LayerTotals> totals() const;  ///< of the scene's bodies of fluid, in its order
+  /// Pressure and speed of each layer, of solids also plastic strain, damage (of materials that can fail) and temperature.
+  std::vector<LargestOf> largest() const;
 
   /// The fluid at a point of space; nothing (zeros) outside of it and in solids.
   FluidPoint at(const Vec3& x) const;
@@ -77,8 +91,9 @@ class LineFlow {
   bool spherical_;
   scene::Line line_;
   double spacing_;
-  double around_;                 // the surroundings' pressure, under which solids are without stress [Pa]
-  std::vector<double> material_;  // number of each layer's body; solids count on after the bodies
+  double around_;                   // the surroundings' pressure, under which solids are without stress [Pa]
+  std::vector<double> material_;    // number of each layer's body; solids count on after the bodies
+  std::vector<std::string> names_;  // of each layer's body or solid
   exact::Lagrangian1D mesh_;
   // Of the first wave's front: when it is looked for [s], and how far from the core it was at the last look and the last merge
   // [m].

@@ -86,17 +86,28 @@ void EnergyHistory::sample(const Simulation& simulation) {
   samples_.append(row);
 }
 
-Observer::Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on)
+Observer::Observer(const scene::Scene& scene, const scene::Scene& read, const Simulation& simulation,
+                   const std::filesystem::path& folder, bool goes_on)
     : scene_(scene),
       simulation_(simulation),
       probes_(scene, simulation, folder, goes_on),
       energy_(folder, scene, goes_on),
+      bodies_(scene, folder, goes_on),
+      forces_(scene, simulation, folder, goes_on),
+      largest_(scene.output.wants("largest")),
+      lines_(scene, simulation, folder, goes_on),
+      open_field_(read, folder, goes_on),
       snapshots_(scene, simulation, folder, goes_on),
       next_snapshot_(snapshots_.next_after(simulation.time() > 0 ? simulation.time() : -1.0)) {}
 
 void Observer::visit_state(StateVisitor& state) {
   state.part("probes", [&] { probes_.visit_state(state); });
   state.part("energy", [&] { energy_.visit_state(state); });
+  state.part("bodies", [&] { bodies_.visit_state(state); });
+  state.part("forces", [&] { forces_.visit_state(state); });
+  state.part("largest", [&] { largest_.visit_state(state); });
+  state.part("lines", [&] { lines_.visit_state(state); });
+  state.part("open field", [&] { open_field_.visit_state(state); });
   state.part("fields", [&] { snapshots_.visit_state(state); });
   state("next history", next_history_);
   if (state.restores()) next_snapshot_ = snapshots_.next_after(simulation_.time());  // times of snapshots may be others now
@@ -109,9 +120,14 @@ void Observer::begin(const Simulation& simulation) {
 
 void Observer::observe(const Simulation& simulation) {
   const double now = simulation.time() * (1 + 1e-12);
+  largest_.look(simulation);
+  lines_.look(simulation);
   if (now >= next_history_ || now >= scene_.end_time) {
     probes_.sample(simulation);
     energy_.sample(simulation);
+    bodies_.sample(simulation);
+    forces_.sample(simulation);
+    open_field_.sample(simulation.time());
     const double interval = scene_.output.history_interval;
     next_history_ = interval > 0 ? (std::floor(now / interval) + 1) * interval : 0.0;
   }
@@ -128,11 +144,27 @@ void Observer::observe(const Simulation& simulation) {
 void Observer::flush() {
   probes_.flush();
   energy_.flush();
+  bodies_.flush();
+  forces_.flush();
+  lines_.flush();
+  open_field_.flush();
   last_flush_ = std::chrono::steady_clock::now();
 }
 
+void Observer::add_to(output::RunRecord& record) const {
+  record.largest = largest_.records(!scene_.structures.empty() ? 3 : scene_.fluid.dimension);
+  record.bubbles = bodies_.bubbles();
+}
+
 output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const {
-  output::Evidence evidence{.time = simulation.time(), .probes = probes_.samples(), .energy = energy_.samples(), .fields = {}};
+  output::Evidence evidence{.time = simulation.time(),
+                            .probes = probes_.samples(),
+                            .energy = energy_.samples(),
+                            .bodies = bodies_.samples(),
+                            .forces = forces_.samples(),
+                            .lines = lines_.samples(),
+                            .fields = {}};
+  evidence.probes.merge(open_field_.samples());
   for (const std::string& name : last_fields) evidence.fields[name] = last_field(simulation, name);
   return evidence;
 }

@@ -10,7 +10,12 @@
 
 #include "output/evidence.hpp"
 #include "output/history.hpp"
+#include "run/body_history.hpp"
+#include "run/force_history.hpp"
+#include "run/largest_values.hpp"
+#include "run/open_field.hpp"
 #include "run/probes.hpp"
+#include "run/profile_lines.hpp"
 #include "run/simulation.hpp"
 #include "run/snapshots.hpp"
 #include "scene/scene.hpp"
@@ -35,8 +40,10 @@ class EnergyHistory {
 
 class Observer {
  public:
-  /// `goes_on`: the folder holds what was observed before, and visit_state will restore how far.
-  Observer(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on);
+  /// `read`: the scene before a start has changed it. `goes_on`: the folder holds what was observed before, and visit_state will
+  /// restore how far.
+  Observer(const scene::Scene& scene, const scene::Scene& read, const Simulation& simulation, const std::filesystem::path& folder,
+           bool goes_on);
   /// All that has been observed. Restored, the files of the folder are cut back to it.
   void visit_state(StateVisitor& state);
   /// The state before the first step.
@@ -52,12 +59,19 @@ class Observer {
   /// Everything observed, with those fields of the last state ("fluid.pressure"; "body.position" is that of the first deformable
   /// body).
   output::Evidence evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const;
+  /// What of the whole run is for its record: largest values and bubbles.
+  void add_to(output::RunRecord& record) const;
 
  private:
   const scene::Scene& scene_;
   const Simulation& simulation_;
   Probes probes_;
   EnergyHistory energy_;
+  BodyHistory bodies_;
+  ForceHistory forces_;
+  LargestValues largest_;
+  ProfileLines lines_;
+  OpenField open_field_;
   Snapshots snapshots_;
   double next_history_ = 0, next_snapshot_ = 0;
   std::chrono::steady_clock::time_point last_flush_;

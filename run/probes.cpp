@@ -110,6 +110,13 @@ void append_state(const coupling::ObstacleState& state, int dimension, std::vect
 
 }  // namespace
 
+FluidPoint fluid_at(const Simulation& simulation, const Vec3& x) {
+  if (const LineFlow* line = simulation.line()) return line->at(x);
+  const std::optional<Meridian>& meridian = simulation.meridian();
+  if (!meridian) return simulation.fluid()->at(x);
+  return in_space(simulation.fluid()->at(meridian->place(x)), *meridian, meridian->outward_at(x));
+}
+
 Probes::Probes(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on) {
   const int dimension = !scene.structures.empty() ? 3 : scene.fluid.dimension;
   if (!scene.probes.empty() || !scene.obstacles.empty()) std::filesystem::create_directories(folder / "history");

@@ -14,6 +14,9 @@
 
 namespace undex::run {
 
+/// The fluid at a place in space [m], as a fluid probe reads it.
+FluidPoint fluid_at(const Simulation& simulation, const Vec3& x);
+
 class Probes {
  public:
   /// Finds the probes' places in the simulation, which must outlive them, and opens history/<name>.csv under `folder`.

@@ -190,8 +190,14 @@ double bytes_on_disk(const scene::Scene& scene) {
   if (output.structure_fields) each += room.cells * 250;
   double columns = 14;  // of energy.csv
   for (const scene::Probe& probe : scene.probes) columns += 1 + 2 * double(probe.quantities.size());
+  if (output.wants("bodies")) columns += 9 * double(scene.fluid.bodies.size());
   const double rows = output.history_interval > 0 ? scene.end_time / output.history_interval : 0.0;  // every step: not known yet
-  return snapshots * each + rows * columns * 13;
+  double numbers = rows * columns;
+  for (const scene::ProfileLine& line : scene.lines) {
+    const double profiles = double(line.times.size()) + (line.interval > 0 ? scene.end_time / line.interval : 0.0);
+    numbers += profiles * line.points * (5.0 + 2.0 * double(line.quantities.size()));
+  }
+  return snapshots * each + numbers * 13;
 }
 
 std::vector<std::string> warnings_of(const scene::Scene& scene, const std::filesystem::path& output) {

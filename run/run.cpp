@@ -175,7 +175,7 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   // The solvers have accepted the scene: nothing was written for one that they refuse.
   if (!goes_on) output::begin_run_folder(options.output, options.scene_text, resolved);
   if (!goes_on && from_run) keep_start(simulation, options.output);
-  Observer observer(scene, simulation, options.output, goes_on);
+  Observer observer(scene, given, simulation, options.output, goes_on);
   Course course{.time = simulation.time()};
   Checkpoints checkpoints({simulation, observer, since, course.energy_off}, options.output, scene.output.checkpoint_interval,
                           resolved, options.numerics);
@@ -218,6 +218,7 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
     } else {
       result.evidence = observer.evidence(simulation, options.last_fields);
       result.record = record_of(scene, simulation, since);
+      observer.add_to(result.record);
     }
   };
   guarded([&] {

@@ -120,6 +120,7 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
   const scene::Scene solved = scene::for_solvers(scene);
   copies_ = scene::mirror_copies(scene);
+  mirrored_ = scene.fluid.symmetry.axis;
   build(solved);
   take_start(solved);
 }
@@ -411,6 +412,55 @@ double Simulation::maximum_pressure() const {
   double most = fluid_ ? fluid_->maximum_pressure() : line_ ? line_->maximum_pressure() : 0.0;
   for (const auto& body : bodies_) most = std::max(most, body->maximum_pressure());
   return most;
+}
+
+std::vector<sph::BodyTotals> Simulation::body_totals() const {
+  std::vector<sph::BodyTotals> all;
+  if (fluid_) all = fluid_->totals();
+  if (line_) {
+    const Vec3 middle = line_->line().center;
+    for (const LayerTotals& l : line_->totals())
+      all.push_back({.mass = l.mass,
+                     .volume = l.volume,
+                     .kinetic = l.kinetic,
+                     .internal = l.internal,
+                     .pressure_volume = l.pressure_volume,
+                     .cavitated = l.cavitated,
+                     .voids = l.voids,
+                     .moment = line_->is_plane() ? Vec3(l.moment, 0, 0) : Vec3(l.mass * middle)});
+  }
+  for (sph::BodyTotals& one : all) {
+    if (meridian_)
+      one.moment = one.mass * meridian_->place_in_space(Vec3(0.0, one.moment[1] / one.mass, 0.0), meridian_->outward());
+    for (int a = 0; a < 3; ++a)
+      if (mirrored_[a]) one.moment[a] = 0.0;
+    one.mass *= copies_;
+    one.volume *= copies_;
+    one.kinetic *= copies_;
+    one.internal *= copies_;
+    one.pressure_volume *= copies_;
+    one.cavitated *= copies_;
+    one.voids *= copies_;
+    one.moment *= copies_;
+  }
+  return all;
+}
+
+std::vector<LargestOf> Simulation::largest() const {
+  std::vector<LargestOf> all;
+  const auto add = [&](std::vector<LargestOf> some) {
+    for (LargestOf& each : some) all.push_back(std::move(each));
+  };
+  if (fluid_) add(fluid_->largest());
+  if (line_) add(line_->largest());
+  for (const auto& body : bodies_) add(body->largest());
+  for (std::size_t k = 0; group_ && k < group_->members().size(); ++k)  // the group is all bodies that there are
+    all[all.size() - group_->members().size() + k].part = group_->members()[k].name;
+  if (meridian_)
+    for (LargestOf& part : all)
+      for (auto& [quantity, largest] : part.quantities)
+        largest.place = meridian_->place_in_space(largest.place, meridian_->outward());
+  return all;
 }
 
 std::string Simulation::fastest_particle() const {

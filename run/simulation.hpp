@@ -83,6 +83,11 @@ class Simulation {
   /// |impulse given - impulse received| over all that was exchanged; nothing where there is no interface.
   std::optional<double> interface_impulse_error() const;
   double maximum_pressure() const;
+  /// Of each body of the fluid in the scene's order: those of the whole body, what symmetry planes cut off counted; `moment` in
+  /// space.
+  std::vector<sph::BodyTotals> body_totals() const;
+  /// Largest values now of each body, solid and structure, at places in space (of the computed part).
+  std::vector<LargestOf> largest() const;
   /// Seconds per pass of all solvers.
   output::NamedNumbers passes() const;
 
@@ -101,6 +106,8 @@ class Simulation {
   bool has_fluid() const { return fluid_ || line_; }
   /// A field of the fluid's particles, or of the mesh's cells, at time().
   std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
+  /// What the water has given to the wet faces since the start [N s], of the computed part; nothing where nothing is coupled.
+  std::optional<coupling::InterfaceLedger> on_structure() const { return driver_->interface(); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
   /// Of each structure, in the scene's order, where there are several; else none.
   std::vector<StructureAccount> accounts() const;
@@ -130,7 +137,8 @@ class Simulation {
   std::unique_ptr<Driver> driver_;
   std::vector<WetBody*> followers_;  // what the driver does not advance
   Step last_;
-  double copies_ = 1;  // mirrored copies that the symmetry planes stand for, this one included
+  std::array<bool, 3> mirrored_{};  // across which axes of space is there a symmetry plane?
+  double copies_ = 1;               // mirrored copies that the symmetry planes stand for, this one included
   Vec3 gravity_ = Vec3::Zero();
   bool surrounded_ = false;  // does anything press from outside?
   double start_time_ = 0, start_energy_ = 0, start_mass_ = 0;

@@ -92,6 +92,11 @@ SphericalFlow::SphericalFlow(const scene::Scene& scene, std::size_t charge, doub
   if (above > 0) threshold_ = std::min(threshold_, 0.01 * above);
 }
 
+void SphericalFlow::visit_state(StateVisitor& state) {
+  mesh_.visit_state(state);
+  state("merged at", merged_at_);
+}
+
 double SphericalFlow::front() const { return mesh_.shock_front(threshold_); }
 
 double SphericalFlow::cell_width(double radius) const {

@@ -28,6 +28,7 @@ class SphericalFlow {
 
   /// To exactly t [s]; cells are merged on the way.
   void advance(double t);
+  void visit_state(StateVisitor& state);
   const exact::Lagrangian1D& mesh() const { return mesh_; }
   double time() const { return mesh_.time(); }
   double front() const;                    ///< radius of the wave's front [m]

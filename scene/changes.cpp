@@ -43,25 +43,25 @@ void compare(const Node* before, const Node* after, const std::string& path, std
     if (!before->find(entry.key)) compare(nullptr, &entry.node, below(entry.key), changes);
 }
 
-/// Each probe of before is there as it was.
-void compare_probes(const Node* before, const Node* after, std::vector<std::string>& changes) {
+/// Each element of the list `key` of before is there as it was.
+void compare_named(const std::string& key, const Node* before, const Node* after, std::vector<std::string>& changes) {
   const auto named = [](const Node& node) {
     const Node* name = node.find("name");
     return name ? name->text : std::string();
   };
   if (!before) return;
-  for (const Node& probe : before->items) {
+  for (const Node& each : before->items) {
     const Node* now = nullptr;
     if (after)
       for (const Node& other : after->items)
-        if (named(other) == named(probe)) now = &other;
-    compare(&probe, now, "probes." + named(probe), changes);
+        if (named(other) == named(each)) now = &other;
+    compare(&each, now, key + '.' + named(each), changes);
   }
 }
 
 Node without_free_keys(Node root) {
   std::erase_if(root.entries, [](const Entry& entry) {
-    return entry.key == "probes" ||
+    return entry.key == "probes" || entry.key == "lines" ||
            std::any_of(std::begin(free_keys), std::end(free_keys), [&](const char* key) { return entry.key == key; });
   });
   return root;
@@ -74,7 +74,7 @@ std::vector<std::string> changes_of_state(const std::string& before, const std::
   std::vector<std::string> changes;
   const Node then_state = without_free_keys(then), now_state = without_free_keys(now);
   compare(&then_state, &now_state, "", changes);
-  compare_probes(then.find("probes"), now.find("probes"), changes);
+  for (const char* list : {"probes", "lines"}) compare_named(list, then.find(list), now.find(list), changes);
   return changes;
 }
 

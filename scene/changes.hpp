@@ -7,7 +7,7 @@
 namespace undex::scene {
 
 /// Keys, dotted, of two resolved scenes that differ although the state depends on them, each with both values. The end time,
-/// threads, title, output and comparison may differ, and probes may be added.
+/// threads, title, output and comparison may differ, probes and lines may be added.
 std::vector<std::string> changes_of_state(const std::string& before, const std::string& after);
 
 }  // namespace undex::scene

@@ -1,4 +1,4 @@
-// [start], [[probes]] and [output].
+// [start], [[probes]], [[lines]] and [output].
 #include <algorithm>
 #include <limits>
 
@@ -16,6 +16,8 @@ const std::vector<std::string> known_particle_fields{"pressure",         "densit
 const std::vector<std::string> known_solid_fields{"pressure", "velocity",    "von_mises",    "plastic_strain",
                                                   "density",  "temperature", "displacement", "energy",
                                                   "damage",   "material",    "sound_speed",  "mass"};
+
+const std::vector<std::string> known_histories{"bodies", "largest", "forces", "one_dimensional"};
 
 /// Reports every word that is not known, and every repetition.
 void check_words(const TableReader& table, const char* key, const std::vector<std::string>& words,
@@ -48,6 +50,26 @@ void read_probe(const Node& node, const std::string& path, Draft& draft) {
   draft.probe_good.push_back(probe.point.allFinite());
 }
 
+void read_line(const Node& node, const std::string& path, Draft& draft) {
+  const TableReader table(node, path, "lines", draft.scene.fluid.dimension, draft.report);
+  ProfileLine line;
+  line.name = std::to_string(draft.line_nodes.size());
+  read_fields(table, line);
+  const std::vector<std::string> known = names_of(fluid_quantities);
+  if (line.quantities.empty()) line.quantities = known;
+  check_words(table, "quantities", line.quantities, known);
+  std::sort(line.times.begin(), line.times.end());
+  if (table.has("from") && table.has("to") && line.from == line.to)
+    table.complain("to", table.path_of("to") + " is the point `from` as well; give the line another end");
+  if (line.interval == 0 && line.times.empty())
+    table.complain("interval",
+                   path + " has neither an interval nor times, and no profile would be written; give one of the two [s]");
+  if (!draft.root.find("bodies"))
+    table.complain("name", path + " runs through the fluid, but the scene has no [[bodies]]; leave it out");
+  draft.scene.lines.push_back(line);
+  draft.line_nodes.push_back(&node);
+}
+
 void read_output_table(const TableReader& top, Draft& draft) {
   const Node* node = top.table("output");
   if (!node) return;
@@ -55,6 +77,7 @@ void read_output_table(const TableReader& top, Draft& draft) {
   const TableReader table(*node, "output", "output", top.dimension(), draft.report);
   read_fields(table, output);
   std::sort(output.field_times.begin(), output.field_times.end());
+  check_words(table, "histories", output.histories, known_histories);
   check_words(table, "particle_fields", output.particle_fields, known_particle_fields);
   check_words(table, "solid_fields", output.solid_fields, known_solid_fields);
 }
@@ -132,6 +155,8 @@ void read_output(Draft& draft) {
   const TableReader top(draft.root, "", "", draft.scene.fluid.dimension, draft.report);
   const auto probes = top.tables("probes");
   for (std::size_t i = 0; i < probes.size(); ++i) read_probe(*probes[i], element_path("probes", *probes[i], i), draft);
+  const auto lines = top.tables("lines");
+  for (std::size_t i = 0; i < lines.size(); ++i) read_line(*lines[i], element_path("lines", *lines[i], i), draft);
   read_output_table(top, draft);
   read_start(top, draft);
 }

@@ -1,11 +1,13 @@
 // A scene: everything that a run needs, as plain data, read from one TOML file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/meridian.hpp"
@@ -146,18 +148,63 @@ void describe(Probe& probe, Visit&& visit) {
   visit(probe.quantities, {.name = "quantities", .rule = "all", .meaning = quantities_in_words()});
 }
 
+/// A straight line through the fluid, along which profiles are written.
+struct ProfileLine {
+  std::string name;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< its ends [m]
+  int points = 101;                             ///< evenly spaced, both ends among them
+  std::vector<std::string> quantities;          ///< of fluid_quantities in core/point_values.hpp
+  double interval = 0;                          ///< [s] between profiles; 0: none
+  std::vector<double> times;                    ///< [s] further profiles
+};
+template <class Visit>
+void describe(ProfileLine& line, Visit&& visit) {
+  visit(line.name, {.name = "name",
+                    .needed = true,
+                    .remedy = "every line has a name",
+                    .form = Form::name,
+                    .meaning = "of its file, lines/<name>.csv"});
+  visit(line.from, {.name = "from",
+                    .unit = "m",
+                    .range = Range::position(),
+                    .needed = true,
+                    .remedy = "give the line's first point in m",
+                    .meaning = "its first point"});
+  visit(line.to, {.name = "to",
+                  .unit = "m",
+                  .range = Range::position(),
+                  .needed = true,
+                  .remedy = "give the line's last point in m",
+                  .meaning = "its last point"});
+  visit(line.points, {.name = "points", .range = Range::between(2, 100000), .meaning = "evenly spaced, both ends among them"});
+  visit(line.quantities,
+        {.name = "quantities", .rule = "all", .values = "list", .meaning = "those of a probe of kind \"fluid\""});
+  visit(line.interval, {.name = "interval",
+                        .unit = "s",
+                        .range = Range::between(0, 1e3),
+                        .meaning = "between profiles, each of the first step at or after its time; 0: none"});
+  visit(line.times, {.name = "times",
+                     .unit = "s",
+                     .range = Range::between(0, 1e3),
+                     .values = "list, 0 to 1000",
+                     .meaning = "further profiles"});
+}
+
 /// What is written, and how often. Zero interval: never.
 struct Output {
-  double history_interval = 0;       ///< [s]; 0: every step
-  double checkpoint_interval = 600;  ///< [s] of wall time; 0: none
-  double field_interval = 0;         ///< [s] between field snapshots
-  std::vector<double> field_times;   ///< [s] further snapshots at these times
+  double history_interval = 0;                              ///< [s]; 0: every step
+  std::vector<std::string> histories{"bodies", "largest"};  ///< beside those of probes, obstacles and energies
+  double checkpoint_interval = 600;                         ///< [s] of wall time; 0: none
+  double field_interval = 0;                                ///< [s] between field snapshots
+  std::vector<double> field_times;                          ///< [s] further snapshots at these times
   std::vector<std::string> particle_fields{"pressure", "density", "velocity", "void_fraction"};
   ///< also: energy, smoothing_length, material, sound_speed, mass
   bool structure_fields = true;
   std::vector<std::string> solid_fields{"pressure", "velocity", "von_mises", "plastic_strain"};
   ///< also: density, temperature, displacement, energy, damage, material,
   ///< sound_speed, mass
+
+  bool wants(std::string_view history) const { return std::find(histories.begin(), histories.end(), history) != histories.end(); }
 };
 
 template <class Visit>
@@ -166,6 +213,15 @@ void describe(Output& output, Visit&& visit) {
                                   .unit = "s",
                                   .range = Range::between(0, 1e3),
                                   .meaning = "between rows of histories; 0: every step"});
+  visit(output.histories,
+        {.name = "histories",
+         .values = "list of \"bodies\", \"largest\", \"forces\", \"one_dimensional\"",
+         .meaning =
+             "what is noted beside probes, obstacles and energies: each body's volume, radius, centre, pressure and energies "
+             "(bodies.csv); largest values with places and times (summary.json); force and impulse of the water on the structure "
+             "and "
+             "on slip faces of walls (forces.csv); at fluid probes the pressure of the "
+             "charge's one-dimensional flow, as long as nothing else can have come there (history/<probe>_1d.csv)"});
   visit(output.checkpoint_interval, {.name = "checkpoint_interval",
                                      .unit = "s",
                                      .range = Range::between(0, 1e9),
@@ -237,6 +293,7 @@ struct Scene {
   std::vector<coupling::Obstacle> obstacles;  ///< rigid bodies in the fluid; subtracted from its shapes
   Start start;
   std::vector<Probe> probes;
+  std::vector<ProfileLine> lines;
   Output output;
   Comparison comparison;
   Places places;                      ///< of its keys in the file
@@ -281,7 +338,7 @@ void describe(Scene& scene, Visit&& visit) {
          .meaning = "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them"});
   for (const char* table :
        {"resolution", "symmetry", "surroundings", "scheme", "start", "materials", "bodies", "walls", "structure", "structures",
-        "solids", "solid_scheme", "planes", "coupling", "obstacles", "probes", "output", "comparison"})
+        "solids", "solid_scheme", "planes", "coupling", "obstacles", "probes", "lines", "output", "comparison"})
     visit(ByHand{}, {.name = table});
 }
 

@@ -15,7 +15,7 @@ namespace {
 std::string home_of(const std::string& key) {
   for (const char* name : {"resolution", "symmetry", "scheme", "coupling", "output", "comparison", "structure", "solid_scheme"})
     if (section(name).find(key)) return std::string("[") + name + "]";
-  for (const char* name : {"bodies", "solids", "walls", "planes", "probes"})
+  for (const char* name : {"bodies", "solids", "walls", "planes", "probes", "lines"})
     if (section(name).find(key)) return std::string("[[") + name + "]]";
   return section("").find(key) ? "the top of the file, before the first [table]" : "";
 }

@@ -61,6 +61,7 @@ void for_each_table(auto&& visit) {
   visit("coupling", "", all_defaults<coupling::Settings>(), "");
   visit("obstacles", "", all_defaults<coupling::Obstacle>(), "");
   visit("probes", "", all_defaults<Probe>(), "");
+  visit("lines", "", all_defaults<ProfileLine>(), "");
   visit("output", "", all_defaults<Output>(), "");
   for_each_alternative("shape.", "type", visit, std::type_identity<Primitive>{});
   visit("placement", "", all_defaults<Placement>(), "");

@@ -228,6 +228,10 @@ std::string to_toml(const Scene& scene) {
     writer.table("[[probes]]", "probes");
     writer.fields(probe);
   }
+  for (const ProfileLine& each : scene.lines) {
+    writer.table("[[lines]]", "lines");
+    writer.fields(each);
+  }
   writer.table("[output]", "output");
   writer.fields(scene.output);
   writer.table("[comparison]", "comparison");

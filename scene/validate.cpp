@@ -61,6 +61,7 @@ void Validator::run() {
   start_time();
   for (std::size_t i = 0; i < scene_.probes.size(); ++i)
     if (draft_.probe_good[i]) probe(scene_.probes[i], *draft_.probe_nodes[i]);
+  one_dimensional();
 }
 
 void Validator::complain(const Node& node, const char* key, const std::string& message) {
@@ -138,6 +139,7 @@ void Validator::names() {
         complain(*draft_.solid_nodes[i], "name", "solids: the name '" + body.name + "' is that of a body; choose another one");
   unique("walls", fluid_.walls, draft_.wall_nodes);
   unique("probes", scene_.probes, draft_.probe_nodes);
+  unique("lines", scene_.lines, draft_.line_nodes);
 }
 
 void Validator::parts() {

@@ -35,6 +35,36 @@ void Validator::on_structure(const Probe& probe, const Node& node) {
     complain(node, "point", path + ".point is " + rounded(away) + " m away from " + on->named() + "; move it onto it");
 }
 
+/// output.histories with "one_dimensional": one spherical charge or bubble in the one medium from which it is taken.
+void Validator::one_dimensional() {
+  if (!scene_.output.wants("one_dimensional") || !all_usable()) return;
+  const Node* output = draft_.root.find("output");
+  const auto refuse = [&](const std::string& why) {
+    complain(output ? *output : draft_.root, "histories", "output.histories with \"one_dimensional\" " + why);
+  };
+  const auto& bodies = fluid_.bodies;
+  const auto is_charge = [&](const sph::Body& body) {
+    if (!scene_.start.body.empty() && body.name != scene_.start.body) return false;
+    return body.variable_h && body.shape.removed.empty() && std::holds_alternative<Sphere>(body.shape.base);
+  };
+  const auto charge = std::find_if(bodies.begin(), bodies.end(), is_charge);
+  if (dimension_ != 3 || scene_.geometry == Geometry::plane || charge == bodies.end() ||
+      std::count_if(bodies.begin(), bodies.end(), is_charge) != 1)
+    return refuse("needs space and one spherical body of gas or products; leave the word out, or name the charge by start.body");
+  const Sphere& sphere = std::get<Sphere>(charge->shape.base);
+  const bool surrounded = std::any_of(bodies.begin(), bodies.end(), [&](const sph::Body& body) {
+    return std::any_of(body.shape.removed.begin(), body.shape.removed.end(), [&](const Primitive& hole) {
+      const auto* other = std::get_if<Sphere>(&hole);
+      return other && other->center == sphere.center && other->radius == sphere.radius;
+    });
+  });
+  if (!surrounded) return refuse("needs the medium round bodies." + charge->name + ", whose `subtract` names it");
+  for (const Probe& one : scene_.probes)
+    for (const Probe& other : scene_.probes)
+      if (one.kind == Probe::Kind::fluid && other.name == one.name + "_1d")
+        return refuse("writes history/" + other.name + ".csv, which is that of a probe; give the probe another name");
+}
+
 void Validator::probe(const Probe& probe, const Node& node) {
   const std::string path = "probes." + probe.name;
   for (int a = 0; a < dimension_; ++a)

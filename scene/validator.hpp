@@ -137,6 +137,7 @@ class Validator {
   double distance_to_solids(const Vec3& x) const;
   void on_structure(const Probe& probe, const Node& node);
   void probe(const Probe& probe, const Node& node);
+  void one_dimensional();
 
   Draft& draft_;
   Scene& scene_;

@@ -4,8 +4,8 @@
 Usage: /usr/bin/python3 scripts/plot.py DIR [--reference FOLDER] [--times 15,30,...] [--dpi N]
        /usr/bin/python3 scripts/plot.py --compare DIR [--dpi N]      DIR: what undex compare wrote
 
-The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, fields/particles.h5part, solids.h5part and
-structure_*.hdf as far as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py
+The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, bodies.csv, forces.csv, lines/*.csv,
+fields/particles.h5part, solids.h5part and structure_*.hdf as far as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py
 (Debian's own).
 """
 import argparse
@@ -273,6 +273,54 @@ def plot_energy(run):
     if lower.lines:
         lower.legend(fontsize=8)
     lower.grid(alpha=0.3)
+    return figure
+
+
+# A panel each: what of the columns' last word, its label, and the factor.
+BODY_PANELS = [(("radius",), "radius [mm]", 1e3), (("volume", "cavitated_volume", "void_volume"), "volume [cm³]", 1e6),
+               (("pressure",), "mean pressure [MPa]", 1e-6), (("kinetic", "internal"), "energy [kJ]", 1e-3)]
+FORCE_PANELS = [(("force",), "force [kN]", 1e-3), (("impulse",), "impulse [N s]", 1.0)]
+
+
+def plot_parts(run, file, wanted):
+    """bodies.csv or forces.csv: a curve a column NAME.WORD, or NAME.WORD_x, in the panel of its word."""
+    columns = read_history(run.folder / file)
+    time = columns.pop("time")
+    word = lambda column: re.sub(r"_[xyz]$", "", column.rpartition(".")[2])
+    panels = [(label, factor, [c for c in columns if word(c) in words]) for words, label, factor in wanted]
+    panels = [panel for panel in panels if panel[2]]
+    figure, axes = plt.subplots(len(panels), 1, figsize=(9, 2.6 * len(panels)), sharex=True, squeeze=False)
+    for axis, (label, factor, names) in zip(axes[:, 0], panels):
+        for name in names:
+            axis.plot(1e6 * time, factor * columns[name], lw=1.2, label=name.replace("_", " "))
+        axis.set(ylabel=label)
+        axis.legend(fontsize=8)
+        axis.grid(alpha=0.3)
+    axes[0, 0].set(title=run.title())
+    axes[-1, 0].set(xlabel="time [µs]")
+    return figure
+
+
+def plot_lines(run):
+    """lines/*.csv: a panel a line and quantity, a curve a time (ten of them at most)."""
+    panels = []
+    for path in sorted((run.folder / "lines").glob("*.csv")):
+        columns = read_history(path)
+        for name in columns:
+            if name not in ("time", "distance", "x", "y", "z"):
+                panels.append((path.stem, name, columns))
+    if not panels:
+        return None
+    figure, axes = plt.subplots(len(panels), 1, figsize=(9, 2.6 * len(panels)), squeeze=False)
+    for axis, (line, name, columns) in zip(axes[:, 0], panels):
+        times = np.unique(columns["time"])
+        for time in times[np.unique(np.linspace(0, len(times) - 1, 10).astype(int))]:
+            now = columns["time"] == time
+            axis.plot(1e3 * columns["distance"][now], columns[name][now], lw=1, label=f"{1e6 * time:.4g} µs")
+        axis.set(xlabel="distance [mm]", ylabel=f"{line}: {name.replace('_', ' ')}")
+        axis.legend(fontsize=7, ncol=2)
+        axis.grid(alpha=0.3)
+    axes[0, 0].set(title=run.title())
     return figure
 
 
@@ -797,6 +845,11 @@ def main():
     if profile:
         jobs["profile"] = lambda: plot_profile(run)
     jobs["energy"] = lambda: plot_energy(run)
+    for file, panels in (("bodies", BODY_PANELS), ("forces", FORCE_PANELS)):
+        if (run.folder / f"{file}.csv").is_file():
+            jobs[file] = lambda file=file, panels=panels: plot_parts(run, f"{file}.csv", panels)
+    if (run.folder / "lines").is_dir():
+        jobs["lines"] = lambda: plot_lines(run)
     if (run.setting("bodies") or not run.setting("solids")) and \
             not (profile and not (run.folder / "fields/particles.h5part").is_file()):
         jobs["mid_plane"] = lambda: plot_mid_plane(run, wanted)

@@ -126,6 +126,28 @@ double Solids::maximum_pressure() const {
   return pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end());
 }
 
+std::vector<LargestOf> Solids::largest() const {
+  const SolidParticles& p = self_->particles;
+  std::vector<LargestOf> all;
+  for (const SolidGroup& group : self_->groups) {
+    LargestOf found{group.body->name, {}};
+    const auto look = [&](const char* quantity, auto of) {
+      Largest most;
+      for (std::uint32_t i = group.begin; i < group.end; ++i) most.take(of(i), i, [&] { return p.x[i]; });
+      found.quantities.push_back({quantity, most});
+    };
+    look("pressure", [&](std::uint32_t i) { return p.pressure[i]; });
+    look("speed", [&](std::uint32_t i) { return p.v[i].squaredNorm(); });
+    double& speed = found.quantities.back().second.value;
+    speed = std::sqrt(std::max(0.0, speed));
+    look("plastic_strain", [&](std::uint32_t i) { return p.plastic_strain[i]; });
+    if (materials::can_fail(group.body->material)) look("damage", [&](std::uint32_t i) { return p.damage[i]; });
+    look("temperature", [&](std::uint32_t i) { return p.temperature[i]; });
+    all.push_back(std::move(found));
+  }
+  return all;
+}
+
 std::vector<double> Solids::field(std::string_view name) const {
   const SolidParticles& p = self_->particles;
   const std::size_t n = p.size();

@@ -74,6 +74,8 @@ class Solids : public DeformableBody {
   std::span<const Vec3> accelerations() const;  ///< [m/s^2]
   Mat3 stress(std::size_t particle) const;      ///< Cauchy [Pa]
   double maximum_pressure() const override;
+  /// Pressure, speed, plastic strain, damage (of materials that can fail) and temperature of each body.
+  std::vector<LargestOf> largest() const override;
   BodySnapshot snapshot(std::span<const std::string> fields) const override;
   /// Copies a field for output: position, displacement, velocity (3 components, interleaved); pressure, density, von_mises,
   /// plastic_strain, temperature, energy, damage, material, sound_speed, mass, id (1). Throws std::invalid_argument for

@@ -45,6 +45,16 @@ struct LinedWall : WallPoints {
   }
 };
 
+/// Faces of the scene's containers that stand still: x_low, x_high, ... z_high, and all round ones. Of several containers those
+/// of one direction are one.
+inline constexpr int fixed_face_count = 7, round_face = 6;
+using OnFixedFaces = std::array<Vec3, fixed_face_count>;
+inline OnFixedFaces nothing_on_fixed_faces() {
+  OnFixedFaces nothing;
+  nothing.fill(Vec3::Zero());
+  return nothing;
+}
+
 /// Numbers of a fluid's walls, by which their owners find them.
 struct MirrorIndex {
   int number;

@@ -192,6 +192,11 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
   }
 }
 
+namespace {
+/// The face across an axis behind which a place has its image.
+int face_behind(int axis, const Vec3& place, const Vec3& image) { return 2 * axis + (image[axis] > place[axis]); }
+}  // namespace
+
 void WallImages::add_images_of(std::uint32_t i, const Particles& particles, const SeenMirrors& seen, const SlipFaces& faces,
                                const std::vector<MirrorWall>& walls, double depth, const Settings& settings,
                                std::vector<Image>& images) const {
@@ -207,14 +212,15 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
   };
   // A ring's volume is also as its radius.
   const auto further = [&](const Vec3& place, const Vec3& from) { return settings.axisymmetric ? place[0] / from[0] : 1.0; };
-  const auto add = [&](const Reflection& image, const Vec3& from, int parent) {
+  const auto add = [&](const Reflection& image, const Vec3& from, int parent, int face) {
     images.push_back({.owner = i,
                       .parent = parent,
                       .foot = -1,
                       .stretch = image.stretch * further(image.place, from),
                       .place = image.place,
                       .normal = image.normal,
-                      .wall_velocity = Vec3::Zero()});
+                      .wall_velocity = Vec3::Zero(),
+                      .face = face});
   };
   const auto add_feet = [&](bool radiating) {
     for (auto foot = first; foot != feet_.end() && foot->particle == i; ++foot) {
@@ -241,15 +247,18 @@ void WallImages::add_images_of(std::uint32_t i, const Particles& particles, cons
       if (wall.ends >= 0)
         images_about(wall, faces.plane[wall.ends], at, depth, settings.dimension,
                      [&](const Reflection& image, const Vec3& from, int of) {
-                       add(image, from, of < 0 ? parent : of);
+                       const int axis = faces.plane[wall.ends].axis;
+                       const bool in_end = std::abs(image.normal[axis]) == 1.0;
+                       add(image, from, of < 0 ? parent : of, in_end ? face_behind(axis, from, image.place) : round_face);
                        return int(images.size()) - 1;
                      });
-      else if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent);
+      else if (const auto image = image_in(wall, at, depth, settings.dimension)) add(*image, at, parent, round_face);
     });
   for (const SlipFaces::Pair& pair : faces.plane)
     if (!pair.of_cone)
       each([&](const Vec3& at, int parent) {
-        images_in(pair, at, depth, settings.dimension, [&](const Reflection& image) { add(image, at, parent); });
+        images_in(pair, at, depth, settings.dimension,
+                  [&](const Reflection& image) { add(image, at, parent, face_behind(pair.axis, at, image.place)); });
       });
 }
 
@@ -333,18 +342,35 @@ bool is_past(const PatchPoint& at, unsigned edges) {
 
 WallShare WallImages::put_back(const Settings& settings, const SlipFaces& faces, const std::vector<MirrorWall>& walls,
                                Particles& particles, PointLoads& received) const {
-  const WallShare work = put_back_from_mirrors(settings, walls, particles, received);
+  WallShare work = put_back_from_mirrors(settings, walls, particles, received);
   if (faces.empty()) return work;
   const double far = 3.0 * settings.lattice.spacing;
+  struct Turned {
+    std::size_t particle;
+    int face;
+    Vec3 lost;  // of its momentum [N s]
+  };
+  std::vector<Turned> all_turned;
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const auto turn_back = [&](const std::optional<Crossing>& crossed) {
-      if (crossed) turn(particles, i, *crossed, Vec3::Zero());
+    const auto turn_back = [&](const std::optional<Crossing>& crossed, int face) {
+      if (!crossed) return;
+      const Vec3 before(particles.vx[i], particles.vy[i], particles.vz[i]);
+      turn(particles, i, *crossed, Vec3::Zero());
+      const Vec3 lost = particles.mass[i] * (before - Vec3(particles.vx[i], particles.vy[i], particles.vz[i]));
+#pragma omp critical
+      all_turned.push_back({i, face, lost});
     };
-    for (const SlipFaces::Round& wall : faces.round) turn_back(crossing(wall, place_of(particles, i), far));
+    for (const SlipFaces::Round& wall : faces.round) turn_back(crossing(wall, place_of(particles, i), far), round_face);
     for (const SlipFaces::Pair& pair : faces.plane)
-      if (is_beyond(pair, place_of(particles, i))) turn_back(crossing(pair, place_of(particles, i), far, settings.dimension));
+      if (is_beyond(pair, place_of(particles, i))) {
+        const bool low = place_of(particles, i)[pair.axis] < pair.low;
+        turn_back(crossing(pair, place_of(particles, i), far, settings.dimension), 2 * pair.axis + !low);
+      }
   }
+  std::stable_sort(all_turned.begin(), all_turned.end(),
+                   [](const Turned& a, const Turned& b) { return a.particle < b.particle; });
+  for (const Turned& each : all_turned) work.fixed[std::size_t(each.face)] += each.lost;
   return work;
 }
 
@@ -468,7 +494,10 @@ WallShare WallImages::scatter(Particles& particles, const std::vector<MirrorWall
   PointLoads given = unloaded(walls);
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
     power.radiating += on_wall[c].power;
-    if (images_[c].foot < 0) continue;
+    if (images_[c].foot < 0) {
+      if (images_[c].face >= 0) power.fixed[std::size_t(images_[c].face)] += on_wall[c].force;
+      continue;
+    }
     const WallFoot& foot = feet_[images_[c].foot];
     add_at(foot, walls, on_wall[c].force, given);
     power.add(walls[foot.wall], on_wall[c].force.dot(images_[c].wall_velocity));

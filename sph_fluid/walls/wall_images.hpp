@@ -26,9 +26,10 @@
 
 namespace undex::sph {
 
-/// Power [W] or work [J] on walls that others move, and on radiating faces.
+/// Power [W] or work [J] on walls that others move, and on radiating faces; forces [N] or impulses [N s] on slip faces at rest.
 struct WallShare {
   double moving = 0, radiating = 0;
+  OnFixedFaces fixed = nothing_on_fixed_faces();
 
   void add(const MirrorWall& wall, double more) { (wall.radiates() ? radiating : moving) += more; }
 };
@@ -82,6 +83,7 @@ class WallImages {
     double stretch;                     // volume over the parent's
     Vec3 place, normal, wall_velocity;  // normal zero: an even number of mirrors
     bool radiating = false;
+    int face = -1;    // of the fixed ones
     double lead = 0;  // half of what its pressure is more than its parent's [Pa]
   };
   void see_first_places(const Settings& settings, const std::vector<MirrorWall>& walls);

@@ -63,6 +63,9 @@ void Fluid::step(double dt) { self_->step(dt); }
 void Fluid::visit_state(StateVisitor& state) { self_->visit_state(state); }
 void Fluid::find_rates_anew() { self_->find_rates_anew(); }
 Ledger Fluid::ledger() const { return self_->ledger(); }
+const OnFixedFaces& Fluid::on_fixed_faces() const { return self_->exchange.fixed; }
+std::vector<BodyTotals> Fluid::totals() const { return self_->totals(); }
+std::vector<LargestOf> Fluid::largest() const { return self_->largest_of_bodies(); }
 FluidPoint Fluid::at(const Vec3& point) const { return self_->at(point); }
 double Fluid::maximum_pressure() const {
   return self_->largest(

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/largest.hpp"
 #include "core/point_values.hpp"
 #include "core/state.hpp"
 #include "core/timers.hpp"
@@ -39,6 +40,21 @@ struct Ledger {
   double mass = 0;
   Vec3 momentum = Vec3::Zero();
   Vec3 radiated_momentum = Vec3::Zero();  ///< that has left through radiating faces
+};
+
+/// One body of the fluid, of the computed part: in two dimensions a metre deep, of revolution whole rings.
+struct BodyTotals {
+  double mass = 0;               ///< [kg]
+  double volume = 0;             ///< [m^3]
+  double kinetic = 0;            ///< [J]
+  double internal = 0;           ///< as that of the ledger [J]
+  double pressure_volume = 0;    ///< integral of the pressure, the surroundings' included, over the volume [J]
+  double cavitated = 0;          ///< volume of particles of liquid that have a void fraction [m^3]
+  double voids = 0;              ///< integral of the void fraction [m^3]
+  Vec3 moment = Vec3::Zero();    ///< integral of place over mass [kg m]
+  Vec3 momentum = Vec3::Zero();  ///< [kg m/s]
+
+  void operator+=(const BodyTotals& other);
 };
 
 /// Counts of floors and clamps that acted since the start.
@@ -92,6 +108,10 @@ class Fluid {
   void find_rates_anew();
 
   Ledger ledger() const;
+  /// Impulses [N s] that slip faces at rest have received since the start, of the computed part.
+  const OnFixedFaces& on_fixed_faces() const;
+  std::vector<BodyTotals> totals() const;  ///< of each body, in the scene's order
+  std::vector<LargestOf> largest() const;  ///< pressure, the surroundings' included, and speed of each body
   /// Shepard averages.
   FluidPoint at(const Vec3& point) const;
   double maximum_pressure() const;  ///< [Pa]

@@ -56,6 +56,8 @@ struct Fluid::Implementation : Water {
   // What others ask: queries.cpp.
   StepLimit step_limit();
   Ledger ledger() const;
+  std::vector<BodyTotals> totals() const;
+  std::vector<LargestOf> largest_of_bodies() const;
   /// Calls visit(index, distance, group, image) for every particle, images included, within `radius_over_h` of its own h of the
   /// point.
   template <class Visit>

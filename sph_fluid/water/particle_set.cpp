@@ -25,6 +25,7 @@ void ParticleSet::visit_loads(StateVisitor& state) {
   state.part("wall force", [&] { wall_force.visit_state(state); });
   state("wall power", wall_power.moving);
   state("radiated power", wall_power.radiating);
+  for (std::size_t k = 0; k < wall_power.fixed.size(); ++k) state("fixed face " + std::to_string(k), wall_power.fixed[k]);
 }
 
 void ParticleSet::visit_state(StateVisitor& state) {

@@ -144,6 +144,80 @@ Ledger Fluid::Implementation::ledger() const {
   return ledger;
 }
 
+void BodyTotals::operator+=(const BodyTotals& other) {
+  mass += other.mass;
+  volume += other.volume;
+  kinetic += other.kinetic;
+  internal += other.internal;
+  pressure_volume += other.pressure_volume;
+  cavitated += other.cavitated;
+  voids += other.voids;
+  moment += other.moment;
+  momentum += other.momentum;
+}
+
+std::vector<BodyTotals> Fluid::Implementation::totals() const {
+  const Particles& p = all.particles;
+  const double around = settings.surroundings.pressure;
+  std::vector<BodyTotals> all_totals;
+  for (const Group& group : all.groups)
+    std::visit(
+        [&](const auto& law) {
+          using Law = std::remove_cvref_t<decltype(law)>;
+          all_totals.push_back(blocked_sum<BodyTotals>(group.begin, group.end, [&](std::uint32_t i) {
+            BodyTotals one;
+            const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
+            one.mass = p.mass[i];
+            one.volume = p.mass[i] / p.rho[i];
+            one.kinetic = 0.5 * p.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            if constexpr (Law::uses_energy) one.internal = p.mass[i] * p.energy[i];
+            else one.internal = p.mass[i] * law.barotropic_energy(p.rho[i]);
+            one.pressure_volume = one.volume * (p.predicted[i].p + around);
+            if constexpr (!Law::is_gas)
+              if (const double share = law.void_fraction(p.rho[i]); share > 0) {
+                one.cavitated = one.volume;
+                one.voids = share * one.volume;
+              }
+            one.moment = p.mass[i] * place_of(p, i);
+            one.momentum = p.mass[i] * v;
+            return one;
+          }));
+        },
+        group.body->material.law);
+  return all_totals;
+}
+
+std::vector<LargestOf> Fluid::Implementation::largest_of_bodies() const {
+  struct Both {
+    Largest pressure, speed;  // of the latter the square
+    void operator+=(const Both& other) {
+      pressure += other.pressure;
+      speed += other.speed;
+    }
+  };
+  const Particles& p = all.particles;
+  constexpr std::uint32_t block = 4096;
+  std::vector<LargestOf> all_largest;
+  for (const Group& group : all.groups) {
+    // A block at a time, so that one place a block is looked up and copied.
+    const std::uint32_t blocks = (group.end - group.begin + block - 1) / block;
+    Both both = blocked_sum<Both>(0, blocks, [&](std::uint32_t b) {
+      const std::uint32_t from = group.begin + b * block, to = std::min(group.end, from + block);
+      Both most;
+      for (std::uint32_t i = from; i < to; ++i) {
+        const auto place = [&] { return place_of(p, i); };
+        most.pressure.take(p.predicted[i].p, p.id[i], place);
+        most.speed.take(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i], p.id[i], place);
+      }
+      return most;
+    });
+    both.pressure.value += settings.surroundings.pressure;
+    both.speed.value = std::sqrt(std::max(0.0, both.speed.value));
+    all_largest.push_back({group.body->name, {{"pressure", both.pressure}, {"speed", both.speed}}});
+  }
+  return all_largest;
+}
+
 template <class Visit>
 void Fluid::Implementation::around(const Vec3& point, double radius_over_h, Visit visit) const {
   for (const Group& group : all.groups) {

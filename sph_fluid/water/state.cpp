@@ -21,6 +21,7 @@ void Fluid::Implementation::visit_state(StateVisitor& state) {
   state("dissipated", exchange.dissipated);
   state("wall work", exchange.wall_work);
   state("radiated", exchange.radiated);
+  for (std::size_t k = 0; k < exchange.fixed.size(); ++k) state("on fixed face " + std::to_string(k), exchange.fixed[k]);
   state.part("clamps", [&] { visit_clamps(clamps, state); });
   state.part("walls", [&] { walls.visit_state(state); });
   state.part("radiating", [&] { radiating.visit_state(state); });

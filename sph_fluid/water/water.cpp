@@ -56,6 +56,7 @@ void Water::book(const ParticleSet& set, double duration) {
   walls.receive(set.wall_force, duration);
   exchange.wall_work += duration * set.wall_power.moving;
   exchange.radiated += duration * set.wall_power.radiating;
+  for (std::size_t k = 0; k < exchange.fixed.size(); ++k) exchange.fixed[k] += duration * set.wall_power.fixed[k];
 }
 
 void Water::drift(ParticleSet& set, double dt) {
@@ -74,6 +75,7 @@ void Water::cross_mirrors(ParticleSet& set) {
   const WallShare work = set.images.put_back(settings, evaluation.slip_faces(), walls.mirrors, set.particles, received.mirrors);
   exchange.wall_work += work.moving;
   exchange.radiated += work.radiating;
+  for (std::size_t k = 0; k < exchange.fixed.size(); ++k) exchange.fixed[k] += work.fixed[k];
   walls.receive(received, 1.0);
 }
 

@@ -17,6 +17,7 @@ namespace undex::sph {
 /// What the fluid has given away since the start [J].
 struct Exchange {
   double dissipated = 0, wall_work = 0, radiated = 0;
+  OnFixedFaces fixed = nothing_on_fixed_faces();  ///< impulses on slip faces at rest [N s]
 };
 
 struct Water {

@@ -14,7 +14,13 @@ namespace undex::output {
 namespace {
 
 Evidence sample() {
-  Evidence evidence{.time = 0.1, .probes = {}, .energy = Samples({{"time", "s"}, {"error", ""}}), .fields = {}};
+  Evidence evidence;
+  evidence.time = 0.1;
+  evidence.energy = Samples({{"time", "s"}, {"error", ""}});
+  evidence.bodies = Samples({{"time", "s"}, {"water.volume", "m3"}});
+  evidence.bodies.append({0, 1.0 / 3});
+  evidence.lines["out"] = Samples({{"time", "s"}, {"distance", "m"}});
+  evidence.lines["out"].append({0, std::nan("")});
   Samples wall({{"time", "s"}, {"pressure", "Pa"}, {"density", "kg/m3"}});
   for (int i = 0; i < 1000; ++i) wall.append({i / 3.0, std::sin(i), 1e3 / (1 + i)});
   wall.append({1e3, std::nan(""), -std::numeric_limits<double>::infinity()});

@@ -234,6 +234,22 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        coupled_tube + "[[solids]]\nname = \"s\"\nshape = {type = \"sphere\", center = [1, 0, 0], radius = 0.1}\n"
                       "material = \"copper-ofhc\"\n",
        "21:1: [structure] and [[solids]] in one scene are not built"},
+      {"unknown history", two_gases + "[output]\nhistories = [\"body\"]\n",
+       "20:13: output.histories: unknown 'body'; known: bodies, largest, forces, one_dimensional\n"},
+      {"history twice", two_gases + "[output]\nhistories = [\"forces\", \"forces\"]\n",
+       "20:13: output.histories names 'forces' twice; name it once\n"},
+      {"one-dimensional flow of no charge", two_gases + "[output]\nhistories = [\"one_dimensional\"]\n",
+       "20:13: output.histories with \"one_dimensional\" needs space and one spherical body of gas or products; leave the word "
+       "out, or "
+       "name the charge by start.body\n"},
+      {"line of one point", two_gases + "[[lines]]\nname = \"a\"\nfrom = 0.1\nto = 0.1\npoints = 1\ntimes = [0.1]\n",
+       "22:6: lines.a.to is the point `from` as well; give the line another end\n"
+       "23:10: lines.a.points = 1 must be from 2 to 1e+05\n"},
+      {"line that is never written", two_gases + "[[lines]]\nname = \"a\"\nfrom = 0.1\nto = 0.2\n",
+       "19:1: lines.a has neither an interval nor times, and no profile would be written; give one of the two [s]\n"},
+      {"line of what fluid has not",
+       two_gases + "[[lines]]\nname = \"a\"\nfrom = 0.1\nto = 0.2\ntimes = [0.1]\nquantities = [\"stress\"]\n",
+       "24:14: lines.a.quantities: unknown 'stress'; known: pressure, velocity, density, void_fraction\n"},
       {"plane across no axis", with(bathed_disc, "[[probes]]", "[[planes]]\naxis = \"z\"\n[[probes]]"),
        "20:8: planes.0.axis: the scene has dimension = 2, so no such axis\n"},
       {"planes without solids", two_gases + "[[planes]]\naxis = \"x\"\n",

@@ -241,7 +241,16 @@ name = "c"
 kind = "structure"
 point = [0.045, 0, 0]
 quantities = ["stress"]
+[[lines]]
+name = "out"
+from = [0.01, 0, 0]
+to = [0.03, 0, 0.01]
+points = 17
+quantities = ["density"]
+interval = 1e-6
+times = [5e-6, 3e-6]
 [output]
+histories = ["forces", "bodies"]
 history_interval = 1e-7
 field_interval = 1e-6
 field_times = [2e-6, 1e-6]
