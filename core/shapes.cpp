@@ -606,11 +606,33 @@ Value summed(const Shape& shape, const Bounds& given_window, int dimension, cons
 
 }  // namespace
 
+namespace {
+
+/// Do the boxes of what is removed lie apart, each so deep in the base that all of it does? In space.
+bool are_apart_within(const Shape& shape) {
+  std::vector<Bounds> boxes;
+  for (const Primitive& removed : shape.removed) {
+    const Bounds box = bounds(removed, 3);
+    const double reach = 0.5 * (box.high - box.low).norm();
+    if (!(reach < 1e100) || signed_distance(shape.base, 0.5 * (box.low + box.high), 3, reach) > -reach) return false;
+    for (const Bounds& other : boxes)
+      if ((box.low.cwiseMax(other.low).array() < box.high.cwiseMin(other.high).array()).all()) return false;
+    boxes.push_back(box);
+  }
+  return true;
+}
+
+}  // namespace
+
 double volume(const Shape& shape, const Bounds& window, int dimension) {
   if (const auto* stl = std::get_if<Stl>(&shape.base)) {
     const double whole = stl->read->volume(window);
     if (shape.removed.empty()) return whole;
-    return whole - volume({Intersection{{Union{shape.removed}, shape.base}}, {}}, window, dimension);
+    if (!are_apart_within(shape))
+      return whole - volume({Intersection{{Union{shape.removed}, shape.base}}, {}}, window, dimension);
+    double rest = whole;
+    for (const Primitive& removed : shape.removed) rest -= volume({removed, {}}, window, dimension);
+    return rest;
   }
   if (const auto* of = std::get_if<Placed>(&shape.base); of && shape.removed.empty()) {
     const Bounds box = bounds(shape.base, dimension);

@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -277,7 +278,9 @@ double TriangleSurface::volume(const Bounds& window) const {
       corners.push_back(vector(self_->mesh.point(vertex)) - low);
     for (const int a : {0, 1}) corners = below(below(corners, a, size[a], 1.0), a, 0.0, -1.0);
     corners = below(corners, 2, 0.0, -1.0);  // beneath the window there is nothing
-    sum += prism(below(corners, 2, size[2], 1.0), size[2]) + prism(below(corners, 2, size[2], -1.0), size[2]);
+    const bool rises = std::any_of(corners.begin(), corners.end(), [&](const Vec3& x) { return x[2] > size[2]; });
+    sum += prism(below(corners, 2, size[2], 1.0), size[2]);
+    if (rises) sum += prism(below(corners, 2, size[2], -1.0), size[2]);
   }
   return sum;
 }
