@@ -303,13 +303,34 @@ class Thickening {
       if (fans_[f].rank > 0) order.push_back(int(f));
     }
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return fans_[a].rank < fans_[b].rank; });
-    std::map<int, std::vector<std::pair<int, double>>> tied;
+    for (const int f : order)
+      for (int side = 0; side < 2; ++side) seat_on_.emplace(2 * f + side, tie(f, 2 * f + side));
     for (const int f : order)
       for (int side = 0; side < 2; ++side) {
         const int node = 2 * f + side;
-        tied[node] = tie(f, node, tied);
-        mesh_.ties.push_back({node, tied[node]});
+        std::map<int, double> sum;
+        add_free(node, 1.0, 0, sum);
+        mesh_.ties.push_back({node, {sum.begin(), sum.end()}});
       }
+    for (const HexahedralMesh::Tie& tie : mesh_.ties) {
+      Vec3& x = mesh_.nodes[std::size_t(tie.node)];
+      x.setZero();
+      for (const auto& [node, weight] : tie.to) x += weight * mesh_.nodes[std::size_t(node)];
+    }
+  }
+
+  /// The nodes tied to none that a node's place follows from, with their weights.
+  void add_free(int node, double weight, int depth, std::map<int, double>& sum) const {
+    const auto found = seat_on_.find(node);
+    if (found == seat_on_.end()) {
+      sum[node] += weight;
+      return;
+    }
+    if (depth > 8)
+      fail("plates stand on each other in a ring", surface_.nodes[fans_[std::size_t(node / 2)].node],
+           "let one of them go straight on, or mesh this joint with hexahedra");
+    for (const auto& [to, share] : found->second)
+      if (share > 0.0) add_free(to, weight * share, depth + 1, sum);
   }
 
   void take_seat(const Edge& edge, int cell, int node) {
@@ -373,8 +394,8 @@ class Thickening {
       }
   }
 
-  /// Moves a node within its layer to the faces that it is seated on, and finds its weights there.
-  std::vector<std::pair<int, double>> tie(int f, int node, const std::map<int, std::vector<std::pair<int, double>>>& tied) {
+  /// Moves a node within its layer to the faces that it is seated on, and finds the nodes of the lowest with their weights.
+  std::array<std::pair<int, double>, 4> tie(int f, int node) {
     const Fan& fan = fans_[std::size_t(f)];
     const Vec3 at = surface_.nodes[fan.node];
     Vec3& x = mesh_.nodes[std::size_t(node)];
@@ -395,17 +416,13 @@ class Thickening {
       fail("a plate does not meet the face of the one that it stands on", at,
            "let its thickness be less than the cells there, or mesh this joint with hexahedra");
     const std::array<double, 4> weight = bilinear_weights(u, v);
-    std::map<int, double> sum;
+    std::array<std::pair<int, double>, 4> to;
     x.setZero();
     for (int k = 0; k < 4; ++k) {
-      const int to = 2 * fan_[std::size_t(4 * cell + k)] + lowest->side;
-      x += weight[k] * mesh_.nodes[std::size_t(to)];
-      if (weight[k] == 0.0) continue;
-      if (const auto further = tied.find(to); further != tied.end())
-        for (const auto& [last, share] : further->second) sum[last] += weight[k] * share;
-      else sum[to] += weight[k];
+      to[k] = {2 * fan_[std::size_t(4 * cell + k)] + lowest->side, weight[k]};
+      x += weight[k] * mesh_.nodes[std::size_t(to[k].first)];
     }
-    return {sum.begin(), sum.end()};
+    return to;
   }
 
   struct Foot {
@@ -507,6 +524,7 @@ class Thickening {
   std::vector<Fan> fans_;
   std::vector<int> fan_;  // of each corner of each cell
   std::vector<Seat> seats_;
+  std::map<int, std::array<std::pair<int, double>, 4>> seat_on_;  // of tied nodes: those of the face, tied ones too
   std::vector<std::vector<int>> neighbours_;
   HexahedralMesh mesh_;
 };

@@ -352,8 +352,8 @@ bool is_slow(const Shape& shape) {
          std::any_of(shape.removed.begin(), shape.removed.end(), [](const Primitive& each) { return is_slow(each); });
 }
 
-/// What a cell about a place counts beside its content: 1, or the length of the circle that the place runs round the axis; or many
-/// weights at once, the first of which says when the sum has settled.
+/// What a cell about a place counts beside its content: 1, or the length of the circle that the place runs round the axis; or
+/// many weights at once, the first of which says when the sum has settled.
 template <class Value>
 using Way = std::function<Value(const Vec3& middle, const Vec3& size)>;
 double leading(double value) { return value; }

@@ -38,6 +38,13 @@ class ElementParts {
   std::size_t memory_bytes() const;
   void visit_state(StateVisitor& state);
 
+  /// visit(set, cell_of): each set, and the cell of the grid that an index in it stands for.
+  template <class Visit>
+  void for_each_set(Visit&& visit) const {
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      visit(*sets_[s], [&](std::size_t i) { return places_.empty() ? i : cells_[s][i]; });
+  }
+
   /// Names of the materials, "a" or "a, b".
   const std::string& materials() const { return materials_; }
 

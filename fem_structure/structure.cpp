@@ -623,29 +623,34 @@ std::vector<double> as_numbers(std::span<const Vec3> vectors) {
 }  // namespace
 
 std::vector<LargestOf> Structure::largest() const {
-  const ElementSet& elements = *self_->elements;
   const auto& position = self_->position;
   const auto& velocity = self_->velocity;
   Largest speed;
   for (std::uint32_t i = 0; i < velocity.size(); ++i) speed.take(velocity[i].squaredNorm(), i, [&] { return position[i]; });
   speed.value = std::sqrt(std::max(0.0, speed.value));
   LargestOf found{"structure", {{"speed", speed}}};
-  const auto look = [&](const char* quantity, std::span<const double> values) {
-    if (values.empty()) return;
-    const std::size_t cells = elements.cell_count(), stride = values.size() / cells;
-    const auto points = std::size_t(elements.points_per_cell());
+  const auto look = [&](const char* quantity, std::span<const double> (ElementSet::*values_of)() const) {
     Largest most;
-    for (std::size_t c = 0; c < cells; ++c)
-      for (std::size_t q = 0; q < points; ++q)
-        if (const double value = values[c * stride + q]; value > most.value)
-          most.take(value, std::uint32_t(c), [] { return Vec3(); });
+    bool any = false;
+    self_->elements.for_each_set([&](const ElementSet& set, auto cell_of) {
+      const std::span<const double> values = (set.*values_of)();
+      if (values.empty()) return;
+      any = true;
+      const std::size_t cells = set.cell_count(), stride = values.size() / cells;
+      const auto points = std::size_t(set.points_per_cell());
+      for (std::size_t c = 0; c < cells; ++c)
+        for (std::size_t q = 0; q < points; ++q)
+          if (const double value = values[c * stride + q]; value > most.value)
+            most.take(value, std::uint32_t(cell_of(c)), [] { return Vec3(); });
+    });
+    if (!any) return;
     most.place.setZero();
     for (const int node : self_->grid.cells[most.owner]) most.place += 0.125 * position[node];
     found.quantities.push_back({quantity, most});
   };
-  look("plastic_strain", elements.plastic_strains());
-  look("damage", elements.damages());
-  look("temperature", elements.temperatures());
+  look("plastic_strain", &ElementSet::plastic_strains);
+  look("damage", &ElementSet::damages);
+  look("temperature", &ElementSet::temperatures);
   return {found};
 }
 

@@ -1,5 +1,5 @@
-// Water by a cubic polynomial in its compression: the form of Wardlaw and Luton, as public codes of close-in underwater explosions
-// have it. SI units; the energy argument is per mass.
+// Water by a cubic polynomial in its compression: the form of Wardlaw and Luton, as public codes of close-in underwater
+// explosions have it. SI units; the energy argument is per mass.
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,8 @@ class BodyHistory {
   /// Opens `folder`/bodies.csv where the scene asks for it. Where the run goes on, visit_state opens it, which knows its rows.
   BodyHistory(const scene::Scene& scene, const std::filesystem::path& folder, bool goes_on);
   void visit_state(StateVisitor& state);
-  /// A row: of a scene without history_interval of every tenth call alone, and of the end.
+  /// A row: of a scene without history_interval of every tenth call alone, of the one-dimensional mesh of every fiftieth; and of
+  /// the end.
   void sample(const Simulation& simulation);
   void flush();
   const output::Samples& samples() const { return samples_; }

@@ -14,7 +14,7 @@ class LargestValues {
  public:
   explicit LargestValues(bool wanted) : wanted_(wanted) {}
   void visit_state(StateVisitor& state);
-  /// After every step.
+  /// After every step; it looks at every fourth of the one-dimensional mesh.
   void look(const Simulation& simulation);
   std::vector<output::LargestRecord> records(int dimension) const;
 

@@ -21,7 +21,7 @@ constexpr double just_before = 1e-9;  // a probe, and just behind it: share of i
 // Width that cells may have, over their distance from the front: as merged behind one that is followed, or is not.
 constexpr double behind_followed = 1.0 / 50, behind_smeared = 1.0 / 800;
 // And over their radius: the flow round a bubble, u ~ 1/r^2, outlasts the wave.
-constexpr double of_radius = 1.0 / 32;
+constexpr double of_radius = 1.0 / 64;
 
 /// Lays a layer out in cells of about the widths that the line asks for. Where the wave's front will be followed they need only
 /// begin so: the front leaves new ones behind.

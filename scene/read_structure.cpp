@@ -32,7 +32,9 @@ bool check_groups(const TableReader& table, const std::vector<int>& groups, cons
     fem::Part& part = structure.parts[p];
     const TableReader one(*nodes[p], table.path_of("parts") + '.' + std::to_string(p), "parts", 3, table.report());
     part.group = names.meant_by(part.group);
-    if (!known.count(part.group)) one.unknown_word("group", part.group, list);
+    if (!known.count(part.group))
+      one.complain("group",
+                   one.path_of("group") + ": the mesh has no group '" + part.group + "'; its groups are " + listed(list));
     else if (!named.insert(part.group).second)
       one.complain("group", one.path_of("group") + ": the group '" + part.group + "' has a part already; leave out one of them");
     if (part.material) with_material.insert(part.group);
@@ -151,7 +153,9 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Settings& structure)
 void check_face(const TableReader& table, const char* key, const std::string& text, const std::vector<std::string>& known,
                 const GroupNames& names) {
   const std::string face = names.meant_by(text);
-  if (!known.empty() && std::find(known.begin(), known.end(), face) == known.end()) table.unknown_word(key, face, known);
+  if (known.empty() || std::find(known.begin(), known.end(), face) != known.end()) return;
+  if (names.given.empty()) table.unknown_word(key, face, known);
+  else table.complain(key, table.path_of(key) + ": the mesh has no face '" + face + "'; its faces are " + listed(known));
 }
 
 /// What groups of the mesh are made of.

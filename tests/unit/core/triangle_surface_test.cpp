@@ -164,7 +164,7 @@ TEST(TriangleSurface, VolumesLessOtherShapes) {
   EXPECT_NEAR(volume({moved, {}}, all, 3), whole, 1e-12 * whole);
 }
 
-/// An ellipsoid with a bore along one of its axes: the bore's share is that of a cylinder and two caps, in closed form for a ball.
+/// A ball with a bore through its middle, in closed form.
 TEST(MassProperties, OfADifferenceByOneSum) {
   const double R = 0.1, a = 0.04, long_ = std::sqrt(R * R - a * a);  // a napkin ring
   const Difference ring{

@@ -346,13 +346,13 @@ TEST_F(Histories, GoOnAfterACut) {
   fs::create_directories(other);
   Run whole(scene, one, false);
   whole.observer.begin(whole.simulation);
-  whole.advance(scene, 1e-5);
+  whole.advance(scene, 6e-6);
   output::write_checkpoint(folder_, {.time = 0, .steps = 0, .scene = "", .numerics = "", .start = ""},
                            [&](StateVisitor& state) { whole.visit(state); });
-  whole.advance(scene, 2e-5);
+  whole.advance(scene, 1.2e-5);
   Run resumed(scene, other, true);
   output::Checkpoint(folder_ / output::checkpoint_names[0]).restore([&](StateVisitor& state) { resumed.visit(state); });
-  resumed.advance(scene, 2e-5);
+  resumed.advance(scene, 1.2e-5);
   const output::Evidence a = whole.observer.evidence(whole.simulation, {}), b = resumed.observer.evidence(resumed.simulation, {});
   EXPECT_EQ(a.bodies.values, b.bodies.values);
   EXPECT_EQ(a.forces.values, b.forces.values);

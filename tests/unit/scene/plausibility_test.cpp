@@ -390,14 +390,15 @@ TEST_F(GmshShells, GroupsAndThicknessAreChecked) {
   expect(found(shell), "structure.material is missing");
   expect(found(shell + "parts = [{group = \"web\", material = \"steel-4340\"}]\n"),
          "the group 'flange' of the mesh has no material");
-  expect(found(shell + steel + "parts = [{group = \"wep\", thickness = 0.02}]\n"), "structure.parts.0.group = \"wep\"");
-  expect(found(shell + steel + "parts = [{group = \"wep\", thickness = 0.02}]\n"), "web");
+  expect(found(shell + steel + "parts = [{group = \"wep\", thickness = 0.02}]\n"),
+         "structure.parts.0.group: the mesh has no group 'wep'; its groups are flange, web");
   expect(found(shell + steel + "parts = [{group = \"web\", thickness = 0.02}, {group = \"2\", thickness = 0.01}]\n"),
          "structure.parts.1.group: the group 'web' has a part already");
   expect(found(shell + steel + "parts = [{group = \"web\", offset = \"middle\"}]\n"), "structure.parts.0.offset");
   expect(found(shell + steel + "parts = [{group = \"web\", thickness = 0}]\n"), "structure.parts.0.thickness");
-  expect(found(shell + steel + "supports = [{face = \"rot\"}]\n"), "root");
-  expect(found(shell + steel + "wet = [\"flange\"]\n"), "flange.bottom");
+  expect(found(shell + steel + "supports = [{face = \"rot\"}]\n"),
+         "structure.supports.0.face: the mesh has no face 'rot'; its faces are 0, root, flange.bottom");
+  expect(found(shell + steel + "wet = [\"flange\"]\n"), "structure.wet: the mesh has no face 'flange'");
   const std::string bare = "element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\"}\n" + steel;
   expect(found(bare), "the shells of the group 'flange' have no thickness; give shape.thickness, or a part {group = \"flange\"");
   EXPECT_EQ(found(bare + "parts = [{group = \"web\", thickness = 0.01}, {group = \"flange\", thickness = 0.02}]\n"), "");

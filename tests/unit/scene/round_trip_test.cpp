@@ -278,21 +278,6 @@ material = "copper-ofhc"
 )",
                                     R"(end_time = 1e-4
 [structure]
-shape = {type = "gmsh", path = ")" UNDEX_ROOT R"(/tests/unit/scene/cubes.msh"}
-parts = [{group = "1", material = {base = "al-6061-t6", spall = {strength = 1e9}}}]
-loads = [{face = "wet side", time = [0], pressure = [1e5]}]
-)",
-                                    R"(end_time = 1e-4
-[structure]
-element = "shell"
-shape = {type = "gmsh", path = ")" UNDEX_ROOT R"(/tests/unit/scene/tee.msh", thickness = 0.02, offset = "bottom"}
-material = "copper-ofhc"
-parts = [{group = "web", thickness = 0.01, offset = "mid"}, {group = "flange", material = "steel-4340"}]
-supports = [{face = "root"}]
-loads = [{face = "flange.top", time = [0], pressure = [1e5]}]
-)",
-                                    R"(end_time = 1e-4
-[structure]
 shape = {type = "plate", low = [0, 0, 0], high = [1, 1, 0.01]}
 material = {base = "al-5086-za", flow = {n = 0.7, rate0 = 1e-2}, spall = {strength = 1.2e9, mode = "fail"}}
 )",
@@ -430,6 +415,21 @@ loads = [{face = "low", time = [0], pressure = [1e5]}, {face = "high", time = [0
 name = "in_rod"
 structure = "1"
 point = [1, 0.5, 2]
+)",
+                                    R"(end_time = 1e-4
+[structure]
+shape = {type = "gmsh", path = ")" UNDEX_ROOT R"(/tests/unit/scene/cubes.msh"}
+parts = [{group = "1", material = {base = "al-6061-t6", spall = {strength = 1e9}}}]
+loads = [{face = "wet side", time = [0], pressure = [1e5]}]
+)",
+                                    R"(end_time = 1e-4
+[structure]
+element = "shell"
+shape = {type = "gmsh", path = ")" UNDEX_ROOT R"(/tests/unit/scene/tee.msh", thickness = 0.02, offset = "bottom"}
+material = "copper-ofhc"
+parts = [{group = "web", thickness = 0.01, offset = "mid"}, {group = "flange", material = "steel-4340"}]
+supports = [{face = "root"}]
+loads = [{face = "flange.top", time = [0], pressure = [1e5]}]
 )"};
 
 TEST(RoundTrip, ReadsBackAsTheSameScene) {
