@@ -19,7 +19,7 @@ scene::Scene open_water(const scene::Scene& scene, const Sphere& charge, std::si
   open.fluid.walls.clear();
   open.obstacles.clear();
   open.solids.bodies.clear();
-  open.structure.reset();
+  open.structures.clear();
   sph::Body medium = scene.fluid.bodies[medium_index];
   medium.shape.base = Sphere{charge.center, 2.0 * scene::endless};
   std::erase_if(medium.shape.removed, [&](const Primitive& hole) {
