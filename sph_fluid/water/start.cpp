@@ -1,4 +1,5 @@
 // Set-up of a fluid: particles in their places, walls, the first evaluation.
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
