@@ -32,6 +32,7 @@ class BodyGroup : public WetBody {
 
   /// Nodes and faces of a member come after those of the member before it.
   const WetSurface& wet_surface() const override { return surface_; }
+  std::vector<std::size_t> wet_walls() const override { return first_; }
   std::span<const Vec3> wet_positions() const override { return position_; }
   std::span<const Vec3> wet_velocities() const override { return velocity_; }
   std::span<const Vec3> wet_accelerations() const override { return acceleration_; }

@@ -30,17 +30,42 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const WetBody& struc
   return limit;
 }
 
+namespace {
+
+/// The nodes from `first` to `last` and their faces.
+WetSurface part_of(const WetSurface& surface, std::size_t first, std::size_t last) {
+  WetSurface part;
+  part.nodes.assign(surface.nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                    surface.nodes.begin() + static_cast<std::ptrdiff_t>(last));
+  for (std::array<int, 4> face : surface.faces) {
+    if (std::size_t(face[0]) < first || std::size_t(face[0]) >= last) continue;
+    for (int& node : face) node -= static_cast<int>(first);
+    part.faces.push_back(face);
+  }
+  return part;
+}
+
+}  // namespace
+
 Coupler::Coupler(Flow& flow, WetBody& structure, const Settings& settings)
     : flow_(flow),
       fluid_(flow.fluid()),
       structure_(structure),
       settings_(settings),
-      wall_(structure.wet_surface(), fluid_.settings()),
-      wall_index_(wall_.add_to(fluid_, settings.free_slip)),
       added_mass_(added_mass_limit(fluid_.settings(), structure)),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
+  const std::vector<std::size_t> begin = structure.wet_walls();
+  for (std::size_t k = 0; k + 1 < begin.size(); ++k) {
+    if (begin[k + 1] == begin[k]) continue;
+    const WetWall wall(part_of(structure.wet_surface(), begin[k], begin[k + 1]), fluid_.settings());
+    walls_.push_back({.first = begin[k],
+                      .count = begin[k + 1] - begin[k],
+                      .wall = wall,
+                      .index = wall.add_to(fluid_, settings.free_slip),
+                      .impulse = std::vector<Vec3>(begin[k + 1] - begin[k])});
+  }
   show_wall(0.0);
 }
 
@@ -52,7 +77,11 @@ void Coupler::show_wall(double ahead) {
     predicted_position_[n] = x[n] + ahead * (v[n] + 0.5 * ahead * a[n]);
     predicted_velocity_[n] = v[n] + ahead * a[n];
   }
-  std::visit([&](auto index) { wall_.move(predicted_position_, predicted_velocity_, fluid_.wall(index)); }, wall_index_);
+  for (const Part& part : walls_) {
+    const auto of = [&](const std::vector<Vec3>& all) { return std::span(all).subspan(part.first, part.count); };
+    std::visit([&](auto index) { part.wall.move(of(predicted_position_), of(predicted_velocity_), fluid_.wall(index)); },
+               part.index);
+  }
 }
 
 sph::StepLimit Coupler::step_limit() {
@@ -60,11 +89,18 @@ sph::StepLimit Coupler::step_limit() {
   return added_mass_.step < limit.step && !fluid_.settings().numerics.fixed_step ? added_mass_ : limit;
 }
 
-template <class Wall>
-void Coupler::collect_impulse(Wall& wall) {
-  ledger_.book_given(wall.impulse);
-  std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec3::Zero());
-  wall_.collect_impulse(wall, nodal_impulse_);
+void Coupler::collect_impulse() {
+  for (Part& part : walls_) {
+    std::fill(part.impulse.begin(), part.impulse.end(), Vec3::Zero());
+    std::visit(
+        [&](auto index) {
+          auto& wall = fluid_.wall(index);
+          ledger_.book_given(wall.impulse);
+          part.wall.collect_impulse(wall, part.impulse);
+        },
+        part.index);
+    std::copy(part.impulse.begin(), part.impulse.end(), nodal_impulse_.begin() + static_cast<std::ptrdiff_t>(part.first));
+  }
 }
 
 Coupler::Window Coupler::advance(double end) {
@@ -88,7 +124,7 @@ Coupler::Window Coupler::advance(double end) {
 
   {
     const auto timer = timers_.measure("coupling");
-    std::visit([&](auto index) { collect_impulse(fluid_.wall(index)); }, wall_index_);
+    collect_impulse();
     ledger_.book_received(nodal_impulse_);
   }
   structure_.advance(fluid_.time(), nodal_impulse_);

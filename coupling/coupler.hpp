@@ -27,8 +27,8 @@ sph::StepLimit added_mass_limit(const sph::Settings& fluid, const WetBody& struc
 
 class Coupler {
  public:
-  /// Shows the fluid the structure's wet surface: as a mirror wall where it slips along it and its scheme mirrors, else as one
-  /// lined with dummy particles. Both must outlive the coupler.
+  /// Shows the fluid the structure's wet surface, each of its walls by itself: a mirror where the fluid slips along it and its
+  /// scheme mirrors, else lined with dummy particles. Both must outlive the coupler.
   Coupler(Flow& flow, WetBody& structure, const Settings& settings);
 
   struct Window {
@@ -43,22 +43,27 @@ class Coupler {
   void visit_state(StateVisitor& state);
 
   InterfaceLedger ledger() const;
-  const WetWall& wall() const { return wall_; }
+  const WetWall& wall() const { return walls_.front().wall; }
   const PassTimers& timers() const { return timers_; }
 
  private:
+  /// A wall of the structure: its nodes, and what they have received.
+  struct Part {
+    std::size_t first, count;
+    WetWall wall;
+    WallIndex index;
+    std::vector<Vec3> impulse;  ///< [N s]
+  };
   void show_wall(double ahead);
-  /// Books what the wall has received and gives it to the nodes.
-  template <class Wall>
-  void collect_impulse(Wall& wall);
+  /// Books what the walls have received and gives it to the nodes.
+  void collect_impulse();
   sph::StepLimit step_limit();
 
   Flow& flow_;
   sph::Fluid& fluid_;
   WetBody& structure_;
   Settings settings_;
-  WetWall wall_;
-  WallIndex wall_index_;
+  std::vector<Part> walls_;
   sph::StepLimit added_mass_;
   PassTimers timers_;
   InterfaceLedger ledger_;

@@ -54,6 +54,7 @@ TEST(ABodyGroup, ShowsTheFacesOfAllBesideEachOther) {
   const WetSurface &all = two.group.wet_surface(), &first = two.one.wet_surface(), &second = two.other.wet_surface();
   ASSERT_EQ(all.nodes.size(), first.nodes.size() + second.nodes.size());
   ASSERT_EQ(all.faces.size(), first.faces.size() + second.faces.size());
+  EXPECT_EQ(two.group.wet_walls(), (std::vector<std::size_t>{0, first.nodes.size(), all.nodes.size()}));
   for (std::size_t f = 0; f < all.faces.size(); ++f)
     for (int v = 0; v < 4; ++v) {
       const bool of_first = f < first.faces.size();
