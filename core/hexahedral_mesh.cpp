@@ -100,7 +100,7 @@ class BoxTree {
 /// Is x in the tetrahedron, either way round?
 bool in_tetrahedron(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double whole = (b - a).cross(c - a).dot(d - a);
-  const double parts[4] = {(b - x).cross(c - x).dot(d - x), (c - a).cross(x - a).dot(d - a), (x - a).cross(b - a).dot(d - a),
+  const double parts[4] = {(b - x).cross(c - x).dot(d - x), (x - a).cross(c - a).dot(d - a), (b - a).cross(x - a).dot(d - a),
                            (b - a).cross(c - a).dot(x - a)};
   return std::all_of(parts, parts + 4, [&](double part) { return part / whole >= -1e-12; });
 }

@@ -484,11 +484,12 @@ class Thickening {
     for (const auto& [id, name] : surface_.edge_names.given) last = std::max(last, id);
     for (const Edge& edge : edges_) last = std::max(last, edge.id);
     mesh_.face_names = surface_.edge_names;
-    std::map<int, std::array<int, 2>> sides;
+    std::map<int, std::array<int, 3>> sides;
     for (const int group : surface_.groups)
       if (sides.try_emplace(group).second)
-        for (int side = 0; side < 2; ++side) {
-          const std::string name = surface_.group_names.of(group) + (side ? ".top" : ".bottom");
+        for (int side = 0; side < 3; ++side) {
+          constexpr const char* called[3] = {".bottom", ".top", ".root"};
+          const std::string name = surface_.group_names.of(group) + called[side];
           for (const auto& [id, known] : surface_.edge_names.given)
             if (known == name)
               throw std::invalid_argument(path_ + ": the curves '" + name + "' are called like a side of the group '" +
@@ -509,7 +510,8 @@ class Thickening {
         const int cell = edge.cells[k], a = corner_of(cell, edge.nodes[0]), b = corner_of(cell, edge.nodes[1]);
         const int v = (a + 1) % 4 == b ? a : b, w = (v + 1) % 4;
         const auto& nodes = mesh_.cells[std::size_t(cell)];
-        mesh_.faces.push_back({{nodes[v], nodes[w], nodes[w + 4], nodes[v + 4]}, first == 0 ? edge.id : 0});
+        mesh_.faces.push_back({{nodes[v], nodes[w], nodes[w + 4], nodes[v + 4]},
+                               first == 0 ? edge.id : sides[surface_.groups[std::size_t(cell)]][2]});
       }
     }
   }

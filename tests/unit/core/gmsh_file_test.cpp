@@ -1,4 +1,5 @@
 // Mesh files of gmsh: what is read, and that everything else is refused with its place.
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -453,6 +454,35 @@ $EndElements
   refused("3 3 2 8 1 2 3 6 5", "3 3 2 8 1 1 2 5 4", "m.msh:23: this quadrangle has the nodes of that of line 22");
   refused("3 3 2 8 1 2 3 6 5", "3 2 2 8 1 2 3 6", "a triangle: the mesh of a shell must hold quadrangles only");
   refused("3 3 2 8 1 2 3 6 5", "3 5 2 8 1 1 2 3 4 5 6 7 9", "a hexahedron: the mesh of a shell must hold quadrangles only");
+}
+
+/// A skew cell: what is inside is where all three unit coordinates are.
+TEST(GmshFile, DistanceKnowsTheInsideOfSkewCells) {
+  Mat3 edges;
+  edges << 1, 0.6, -0.2, 0.3, 1, 0.4, -0.5, 0.2, 0.3;
+  auto mesh = std::make_shared<HexahedralMesh>();
+  const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (const auto& c : corner) mesh->nodes.push_back(edges * Vec3(c[0], c[1], c[2]));
+  mesh->cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  for (const auto& face : hexahedron_faces) mesh->faces.push_back({{face[0], face[1], face[2], face[3]}, 0});
+  const MeshDistance distance(mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-0.5, 1.5);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 u(unit(random), unit(random), unit(random));
+    double nearest = 1e300;  // to a side, from within
+    for (int d = 0; d < 3; ++d) {
+      const Vec3 normal = edges.col((d + 1) % 3).cross(edges.col((d + 2) % 3)).normalized();
+      nearest = std::min(nearest, std::min(u[d], 1 - u[d]) * std::abs(normal.dot(edges.col(d))));
+    }
+    const double found = distance.signed_distance(edges * u);
+    EXPECT_EQ(found<0, nearest> 0) << u.transpose();
+    if (nearest <= 0) continue;
+    EXPECT_NEAR(found, -nearest, 1e-12);
+    ++inside;
+  }
+  EXPECT_GT(inside, 100);
 }
 
 }  // namespace

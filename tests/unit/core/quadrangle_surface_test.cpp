@@ -200,7 +200,8 @@ TEST(QuadrangleSurface, FacesAreNamedByGroups) {
                                                {"2.top", 8},
                                                {"2.bottom", 8},
                                                {"clamped", 4},
-                                               {"0", 12 + 4 + 2 * 2 + 4}}));
+                                               {"2.root", 4},
+                                               {"0", 12 + 4 + 2 * 2}}));
   sheets.surface.edge_names.given[7] = "plating.top";
   EXPECT_NE(refusal(sheets, all(0.01)).find("the curves 'plating.top' are called like a side"), std::string::npos);
 }
