@@ -356,6 +356,7 @@ TEST_F(Histories, OneDimensionalFlowAtProbes) {
 TEST_F(Histories, GoOnAfterACut) {
   const std::vector<scene::Override> overrides{
       {"resolution.spacing", "0.006"},
+      {"resolution.settle", "false"},
       {"output.histories", "[\"bodies\", \"largest\", \"forces\", \"one_dimensional\"]"},
       {"walls", "[{name = \"hull\", shape = {type = \"sphere\", radius = 0.06}}]"},
       {"lines", "[{name = \"out\", from = [0, 0, 0], to = [0.05, 0, 0], points = 5, interval = 3e-6}]"}};
