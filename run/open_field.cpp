@@ -45,13 +45,15 @@ OpenField::OpenField(const scene::Scene& scene, const std::filesystem::path& fol
     return least;
   };
   echo_ = distance(sphere.center);
+  // A probe averages over the particles within 2.4 spacings (Fluid::at).
+  const double averaged = on_a_line(scene.geometry) ? 0.0 : 2.4 * scene.fluid.lattice.spacing;
   double farthest = 0;
   for (const scene::Probe& probe : scene.probes) {
     if (probe.kind != scene::Probe::Kind::fluid) continue;
     Place& place = places_.emplace_back();
     place.name = probe.name + "_1d";
     place.radius = (probe.point - sphere.center).norm();
-    place.away = distance(probe.point);
+    place.away = std::max(0.0, distance(probe.point) - averaged);
     place.end = endless;
     place.path = folder / "history" / (place.name + ".csv");
     place.samples = output::Samples({{"time", "s"}, {"pressure", "Pa"}});

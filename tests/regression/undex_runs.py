@@ -112,6 +112,9 @@ def differences(one, other):
         lines = zip(tables[name].text.splitlines(), others[name].text.splitlines())
         where = next((i for i, (a, b) in enumerate(lines, 1) if a != b), "the end")
         found.append(f"{name} from line {where} on")
+    texts = [{str(p.relative_to(f)): p.read_text() for pattern in ("bodies.csv", "forces.csv", "lines/*.csv")
+              for p in pathlib.Path(f).glob(pattern)} for f in (one, other)]
+    found += [name for name in sorted(texts[0].keys() | texts[1].keys()) if texts[0].get(name) != texts[1].get(name)]
     names = [{str(p.relative_to(f)) for p in (pathlib.Path(f) / "fields").glob("*.h*")} for f in (one, other)]
     if names[0] != names[1]:
         found.append(f"fields: {sorted(names[0])} and {sorted(names[1])}")

@@ -185,7 +185,8 @@ TEST(Similitude, RatiosOfAWaveThatFollowsTheLawsAreOne) {
                                          {"comparison.decay", "[84e-6, -0.23]"}};
     if (std::string(dimension) != "\"spherical\"") changes.push_back({"resolution.spacing", "0.025"});
     const scene::Scene scene = scene::read(UNDEX_CASES "/free_field/tnt.toml", comparison_kinds(), changes);
-    Evidence evidence{.time = 3e-3, .probes = {}, .energy = {}, .fields = {}};
+    Evidence evidence;
+    evidence.time = 3e-3;
     const double scale = std::cbrt(2.5);
     for (const scene::Probe& probe : scene.probes) {
       const double R = probe.point.norm();

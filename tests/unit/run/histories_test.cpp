@@ -241,6 +241,45 @@ TEST_F(Histories, ForcesOnWallsTakeTheMomentum) {
     }
 }
 
+/// Also where a body takes steps of its own.
+TEST_F(Histories, ForcesOnWallsWithLocalSteps) {
+  const scene::Scene scene = read_text(R"(
+dimension = 2
+end_time = 3e-4
+threads = 1
+[resolution]
+spacing = 0.05
+[scheme]
+precision = "full"
+local_steps = true
+[[bodies]]
+name = "gas"
+shape = {type = "cylinder", center = [0.3, 0.4], radius = 0.12}
+material = {law = "barotropic_gas", rho0 = 50, p0 = 2e8, gamma = 1.4}
+spacing = 0.02
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0], high = [1, 1]}
+subtract = ["gas"]
+material = "water-tait"
+pressure = 1e5
+[[walls]]
+name = "tank"
+shape = {type = "box", low = [0, 0], high = [1, 1]}
+)");
+  Simulation simulation(scene);
+  run_to(simulation, scene.end_time);
+  EXPECT_GT(simulation.fluid()->substeps(), 0);
+  Vec3 received = Vec3::Zero();
+  double exchanged = 0;
+  for (const Vec3& face : simulation.fluid()->on_fixed_faces()) {
+    received += face;
+    exchanged += face.norm();
+  }
+  EXPECT_GT(exchanged, 0.0);
+  EXPECT_NEAR((received + simulation.fluid()->ledger().momentum).norm() / exchanged, 0.0, 1e-12);
+}
+
 TEST_F(Histories, ForceOnAStructureIsWhatItReceives) {
   const scene::Scene scene =
       read_text(plate_on_water,
@@ -316,6 +355,8 @@ TEST_F(Histories, OneDimensionalFlowAtProbes) {
 
 TEST_F(Histories, GoOnAfterACut) {
   const std::vector<scene::Override> overrides{
+      {"resolution.spacing", "0.006"},
+      {"resolution.settle", "false"},
       {"output.histories", "[\"bodies\", \"largest\", \"forces\", \"one_dimensional\"]"},
       {"walls", "[{name = \"hull\", shape = {type = \"sphere\", radius = 0.06}}]"},
       {"lines", "[{name = \"out\", from = [0, 0, 0], to = [0.05, 0, 0], points = 5, interval = 3e-6}]"}};
