@@ -43,12 +43,12 @@ struct Layer {
   ShellOffset offset = ShellOffset::mid;
 };
 
-/// One hexahedron for each quadrangle, in their order, 0 to 3 at its bottom and 4 to 7 at its top (HexahedralMesh::is_shell). Its
-/// faces are called "<group>.top" and "<group>.bottom", what stands on another layer "<group>.root", those over outer edges by
-/// the group of the edge. Nodes lie along the mean normal of the cells, such that the layer is as thick as said over each of them;
-/// where the thickness changes it does so within the cells at the change. Normals of one layer are made to agree with most of it
-/// as listed, which is remarked. The surface is the part at and above the planes of symmetry through the origin (axes 0, 1, 2),
-/// in which it is mirrored.
+/// One hexahedron for each quadrangle, in their order, 0 to 3 at its bottom and 4 to 7 at its top (HexahedralMesh::is_shell).
+/// Its faces are called "<group>.top" and "<group>.bottom", what stands on another layer "<group>.root", those over outer
+/// edges by the group of the edge. Nodes lie along the mean normal of the cells, such that the layer is as thick as said over
+/// each of them; where the thickness changes it does so within the cells at the change. Normals of one layer are made to
+/// agree with most of it as listed, which is remarked. The surface is the part at and above the planes of symmetry through
+/// the origin (axes 0, 1, 2), in which it is mirrored.
 ///
 /// Throws std::invalid_argument, beginning with `path`, where the layer would cross itself: folded surfaces, Moebius strips,
 /// thickness beyond what curvature and cells bear, three quadrangles of which no two go on in one another.
