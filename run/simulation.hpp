@@ -75,6 +75,8 @@ class Simulation {
   /// energy one way would have (or those impulses, where they are larger). Along the axes to which no wall, support or symmetry
   /// plane gives an impulse of its own; NaN where there is none.
   double momentum_error() const;
+  /// Of everything together, of the computed part, in the frame of the solvers [N s].
+  Vec3 momentum() const;
   /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
   std::optional<double> angular_momentum_error() const;
   /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6
@@ -121,7 +123,6 @@ class Simulation {
   void take_start(const scene::Scene& scene);
   double mass() const;
   double all_mass() const;
-  Vec3 momentum() const;
   /// What has crossed wet faces and the surfaces of rigid bodies.
   std::optional<coupling::InterfaceLedger> interface() const;
   /// Of gravity, loads, rigid planes, and what drives or holds rigid bodies since the start [N s].
