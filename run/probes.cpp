@@ -41,6 +41,8 @@ std::function<Vec3()> place_on_wall(const Simulation& simulation, const Vec3& x,
     if (auto place = body->follow_surface(x, reach); place && (!nearest || (place() - x).norm() < (nearest() - x).norm()))
       nearest = std::move(place);
   if (nearest) return nearest;
+  for (const coupling::RigidObstacle& obstacle : simulation.obstacles())
+    if (std::abs(obstacle.signed_distance(x)) <= reach) return [&obstacle, x] { return obstacle.body().place(x); };
   return [x] { return x; };
 }
 

@@ -11,6 +11,7 @@
 #include "scene/plausible.hpp"
 #include "scene/record_reader.hpp"
 #include "scene/suggestion.hpp"
+#include "scene/usual_units.hpp"
 
 namespace undex::scene {
 namespace {
@@ -76,7 +77,10 @@ bool fill_in(const TableReader& table, bool based, Jwl::Parameters& p) {
   if (table.report().size() != before) return false;
   try {
     materials::fill_in(p, C);
-    return true;
+    if (C && !explosive_energy.holds(p.E0))
+      table.complain("C", table.path_of("C") + " = " + shortest(*C) + " [Pa] makes a detonation energy of " + rounded(p.E0) +
+                              " J/kg, which no explosive has; is it in Pa?");
+    return table.report().size() == before;
   } catch (const std::domain_error& none) {
     table.complain("C", table.path() + ": " + none.what() + ": such products do not detonate; check the set, or give D and p_cj");
     return false;

@@ -133,8 +133,9 @@ void describe(Probe& probe, Visit&& visit) {
   visit(probe.kind,
         {.name = "kind",
          .rule = "\"fluid\"; \"structure\" without bodies",
-         .meaning = "a fixed point of the fluid; of a rigid wall, wet face or solid, with which it moves; a material point "
-                    "of the structure or of a solid"});
+         .meaning =
+             "a fixed point of the fluid; of a rigid wall, wet face, solid or obstacle, with which it moves; a material point "
+             "of the structure or of a solid"});
   visit(probe.structure, {.name = "structure",
                           .rule = "the only one",
                           .values = "a name",

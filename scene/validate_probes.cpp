@@ -87,7 +87,7 @@ void Validator::probe(const Probe& probe, const Node& node) {
         thinnest = std::min(thinnest, thickness(solid.shape.base, dimension_));
       if (const double away = distance_to_solids(probe.point); away > 0.1 * thinnest)
         complain(node, "point", path + ".point is " + rounded(away) + " m away from every solid; move it onto one");
-    } else if (dimension_ == 3) {
+    } else if (dimension_ == 3 && !structures_.empty()) {
       on_structure(probe, node);
     }
     return;
@@ -104,10 +104,11 @@ void Validator::probe(const Probe& probe, const Node& node) {
     if (std::any_of(structures_.begin(), structures_.end(), unread)) return;  // what is wrong with it is said elsewhere
     const bool wet =
         std::any_of(structures_.begin(), structures_.end(), [](const auto& each) { return !each.settings->wet_faces.empty(); });
-    if (fluid_.walls.empty() && !wet && scene_.solids.bodies.empty()) {
-      complain(
-          node, "kind",
-          path + " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]]; take kind = \"fluid\"");
+    if (fluid_.walls.empty() && !wet && scene_.solids.bodies.empty() && scene_.obstacles.empty()) {
+      complain(node, "kind",
+               path +
+                   " is a wall probe, but the scene has neither [[walls]] nor a wet face nor [[solids]] nor [[obstacles]]; take "
+                   "kind = \"fluid\"");
       return;
     }
     double away = 1e300;
@@ -116,6 +117,8 @@ void Validator::probe(const Probe& probe, const Node& node) {
     for (const Structure& each : structures_)
       if (dimension_ == 3) away = std::min(away, std::abs(each.shape->signed_distance(probe.point)));
     away = std::min(away, std::abs(distance_to_solids(probe.point)));
+    for (const coupling::Obstacle& obstacle : scene_.obstacles)
+      away = std::min(away, std::abs(signed_distance(obstacle.shape, probe.point, dimension_)));
     if (away > near())
       complain(node, "point",
                path + ".point is " + rounded(away) + " m away from every wall, more than two spacings; move it to the wall");

@@ -112,7 +112,9 @@ TEST_F(SealedFiles, Checkpoints) {
 }
 
 TEST_F(SealedFiles, Evidence) {
-  output::Evidence evidence{.time = 0.1, .probes = {}, .energy = output::Samples({{"time", "s"}, {"error", ""}}), .fields = {}};
+  output::Evidence evidence;
+  evidence.time = 0.1;
+  evidence.energy = output::Samples({{"time", "s"}, {"error", ""}});
   for (int i = 0; i < 100; ++i) evidence.energy.append({0.001 * i, 1e-9 * i});
   output::write_evidence(folder_ / "evidence.h5", evidence);
   const std::string older = bytes_of(folder_ / "evidence.h5");

@@ -29,6 +29,7 @@ TEST(Library, HasEverySetByName) {
                                                                                         "water-steinberg",
                                                                                         "water-paper-mg",
                                                                                         "water-mg-schwer",
+                                                                                        "water-polynomial",
                                                                                         "water-sg-sussman",
                                                                                         "water-sg-applaud",
                                                                                         "water-sg-ecogen",
@@ -53,7 +54,7 @@ TEST(Library, HasEverySetByName) {
                                                                                         "sjogreen-gas",
                                                                                         "sjogreen-gas-gamma2",
                                                                                         "air"}));
-  EXPECT_EQ(fluids.size(), 31u);
+  EXPECT_EQ(fluids.size(), 32u);
   EXPECT_EQ(std::set<std::string>(solids.begin(), solids.end()), (std::set<std::string>{"al-impact-table2",
                                                                                         "al-2024-t351",
                                                                                         "al-6061-t6",

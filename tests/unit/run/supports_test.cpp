@@ -9,15 +9,15 @@
 namespace undex::run::test {
 namespace {
 
-/// A bar of 0.1 m in uniaxial strain whose lower end is held, all of it in motion at the start.
+/// A bar of 0.1 m, without lateral strain, whose lower end is held, all of it in motion at the start.
 std::string bar(const std::string& description, double spacing) {
-  return "dimension = 1\nend_time = 1e-3\nthreads = 1\n[resolution]\nspacing = " + std::to_string(spacing) + R"(
+  return "dimension = 2\nend_time = 1e-3\nthreads = 1\n[resolution]\nspacing = " + std::to_string(spacing) + R"(
 [[solids]]
 name = "bar"
-shape = {type = "box", low = 0, high = 0.1}
+shape = {type = "box", low = [0, 0], high = [0.1, 0.01]}
 material = {rho0 = 2700, young_modulus = 70e9, poisson_ratio = 0, flow = {law = "linear_hardening", Y0 = 1e12, H = 0}}
-velocity = 1
-supports = [{face = "x_low"}]
+velocity = [1, 0]
+supports = [{face = "x_low", fixed = ["x"]}]
 description = ")" +
          description + "\"\n";
 }
@@ -26,11 +26,12 @@ description = ")" +
 /// through zero when it has reached the free end.
 TEST(Supports, ABarComesBackFromItsHeldEnd) {
   const double sound = std::sqrt(70e9 / 2700);
-  for (const char* description : {"total_lagrangian", "updated_lagrangian"})
+  for (const char* description : {"total_lagrangian", "updated_lagrangian"}) {
+    double missing = 0.05;
     for (const double spacing : {0.002, 0.001}) {
       Simulation simulation(read_text(bar(description, spacing)));
       double before = 0, last = 0, zero = 0, least = 1;
-      const double whole = 2700 * (0.1 - spacing);  // the held row rests
+      const double whole = 2700 * (0.1 - spacing) * 0.01;  // the held row rests
       EXPECT_NEAR(simulation.momentum()[0], whole, 1e-9 * whole);
       while (simulation.time() < 2.2 * 0.1 / sound) {
         before = simulation.time();
@@ -42,9 +43,12 @@ TEST(Supports, ABarComesBackFromItsHeldEnd) {
       }
       // The held row stands half a spacing inside, and the zero of its motion with it.
       EXPECT_NEAR(zero * sound / (0.1 - 0.5 * spacing), 1.0, 0.01) << description << ' ' << spacing;
-      EXPECT_NEAR(least, -1.0, 0.03) << description << ' ' << spacing;
+      // Viscosity rounds the corners of the wave over some spacings, the less the finer they are.
+      EXPECT_LT(least + 1.0, missing) << description << ' ' << spacing;
+      missing = 0.8 * (least + 1.0);
       EXPECT_LT(std::abs(simulation.energy().error()), 0.02) << description << ' ' << spacing;
     }
+  }
 }
 
 /// Only what is named is held: a plate that slips along its support moves on as it did.
@@ -92,13 +96,12 @@ velocity = [0, 0, 3]
 
 TEST(Supports, UnknownFacesAreNamed) {
   try {
-    read_text(bar("total_lagrangian", 0.002) + "[[planes]]\naxis = \"x\"\nposition = -0.1\n");
     std::string text = bar("total_lagrangian", 0.002);
-    text.replace(text.find("x_low"), 5, "y_low");
+    text.replace(text.find("x_low"), 5, "z_low");
     read_text(text);
     FAIL() << "accepted";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("y_low"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("z_low"), std::string::npos) << error.what();
   }
 }
 

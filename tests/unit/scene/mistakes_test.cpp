@@ -46,6 +46,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
        "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, "
+       "spin, "
        "radial, "
        "pressure, "
        "level, density, energy, burn, variable_h\n"},

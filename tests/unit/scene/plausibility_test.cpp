@@ -103,7 +103,8 @@ TEST(Plausibility, ExplosivesAreCompletedFromTheirOwnState) {
           "C stands in place of E0; leave out one of them");
   refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, ", C = 1.339e9", "")),
           "needs E0, the detonation energy per mass, or C of its isentrope in its place");
-  refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, "C = 1.339e9", "C = 1.339e13")), "material");
+  refused(with(coupled_tube, "material = \"petn\"", "material = " + with(published, "C = 1.339e9", "C = 1.339e13")),
+          "which no explosive has; is it in Pa?");
 }
 
 TEST(Plausibility, SetsThatAreNotToBeReliedOnAreSaid) {

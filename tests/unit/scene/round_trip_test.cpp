@@ -162,7 +162,7 @@ subtract = [{type = "slab", axis = "z", low = 0.009, high = 1}, {type = "tube", 
 material = {base = "petn", A = 6e11}
 spacing = 0.002
 velocity = [1, 0, 3]
-spin = [0, 0, 7]
+spin = [0, 7, 0]
 density = 1700
 energy = 5e6
 variable_h = false
@@ -212,7 +212,7 @@ supports = [{face = "low", fixed = ["x", "z"]}, {face = "high"}]
 wet = ["inner", "outer"]
 loads = [{face = "outer", time = [0, 1e-6], pressure = [1e5, 2e5]}]
 velocity = [0, 0, 4]
-spin = [0, 0, 2]
+spin = [0, 2, 0]
 courant = 0.7
 linear_viscosity = 0.05
 quadratic_viscosity = 1.1
@@ -526,7 +526,7 @@ TEST(RoundTrip, KeepsTheValuesThatAreNotDefaults) {
   EXPECT_EQ(std::get<TubeShape>(charge.shape.removed[1]).outer, 0.002);
   EXPECT_EQ(charge.spacing, 0.002);
   EXPECT_EQ(charge.velocity, Vec3(1, 0, 3));
-  EXPECT_EQ(charge.spin, Vec3(0, 0, 7));
+  EXPECT_EQ(charge.spin, Vec3(0, 7, 0));
   EXPECT_EQ(charge.density, 1700);
   EXPECT_EQ(charge.energy, 5e6);
   EXPECT_FALSE(charge.variable_h);
