@@ -165,17 +165,12 @@ constexpr Kind quadrangles{.dimension = 2,
                                "of their sides)",
                            .remedy = "mesh the meridian with recombined surfaces in gmsh",
                            .sides = std::span(hexahedron_faces).subspan(2)};
-constexpr Kind surface{
-    .dimension = 2,
-    .cell = "quadrangle",
-    .cells = "quadrangles",
-    .face = "line",
-    .face_entity = "curve",
-    .cell_type = 3,
-    .face_type = 1,
-    .wanted = "the mesh of a shell must hold quadrangles only (and the lines of their edges)",
-    .remedy = "mesh the surfaces alone, recombined, in gmsh (Mesh.RecombineAll = 1, Mesh.SubdivisionAlgorithm = 1)",
-    .sides = std::span(hexahedron_faces).subspan(2)};
+constexpr Kind surface = [] {
+  Kind kind = quadrangles;
+  kind.wanted = "the mesh of a shell must hold quadrangles only (and the lines of their edges)";
+  kind.remedy = "mesh the surfaces alone, recombined, in gmsh (Mesh.RecombineAll = 1, Mesh.SubdivisionAlgorithm = 1)";
+  return kind;
+}();
 
 class Reader {
  public:

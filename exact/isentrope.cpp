@@ -43,11 +43,14 @@ bool is_beyond(const materials::FluidLaw& law, double density, double sound) {
 double floor_pressure(const materials::FluidLaw& law) {
   if (const auto* tait = std::get_if<materials::TaitWater>(&law))
     if (tait->parameters().cavitation != materials::Cavitation::none) return tait->evaluate(tait->floor_density(), 0.0).pressure;
-  if (const auto* water = std::get_if<materials::MieGruneisenWater>(&law))
-    if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
-  if (const auto* water = std::get_if<materials::PolynomialWater>(&law))
-    if (water->parameters().cavitation != materials::Cavitation::none) return water->parameters().p_floor;
-  return -std::numeric_limits<double>::infinity();
+  return std::visit(
+      [](const auto& water) {
+        constexpr double none = -std::numeric_limits<double>::infinity();
+        if constexpr (requires { water.cutoff_density(0.0); })
+          return water.parameters().cavitation != materials::Cavitation::none ? water.parameters().p_floor : none;
+        else return none;
+      },
+      law);
 }
 
 }  // namespace

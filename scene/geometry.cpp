@@ -7,15 +7,9 @@ namespace {
 
 /// Moves x along the gradient of a depth until it is `target` deep; exact for the smooth parts of a distance.
 Vec3 moved_to(const Depth& depth, const Vec3& x, double at_x, double target, double probe, int dimension) {
-  Vec3 gradient = Vec3::Zero();
-  for (int a = 0; a < dimension; ++a) {
-    Vec3 above = x, below = x;
-    above[a] += probe;
-    below[a] -= probe;
-    gradient[a] = (depth(above) - depth(below)) / (2 * probe);
-  }
-  const double length = gradient.norm();
-  return length > 0.1 ? Vec3(x + (target - at_x) / length * gradient / length) : x;
+  const Vec3 way = gradient(depth, x, probe, dimension);
+  const double length = way.norm();
+  return length > 0.1 ? Vec3(x + (target - at_x) / length * way / length) : x;
 }
 
 bool within(const Bounds& window, const Vec3& x, int dimension) {
@@ -25,6 +19,12 @@ bool within(const Bounds& window, const Vec3& x, int dimension) {
 }
 
 }  // namespace
+
+Vec3 gradient(const Depth& depth, const Vec3& x, double step, int dimension) {
+  Vec3 slope = Vec3::Zero();
+  for (int a = 0; a < dimension; ++a) slope[a] = (depth(x + step * Vec3::Unit(a)) - depth(x - step * Vec3::Unit(a))) / (2 * step);
+  return slope;
+}
 
 NearDepth inside(const Shape& shape, int dimension) {
   return [&shape, dimension](const Vec3& x, double beyond) { return -signed_distance(shape, x, dimension, beyond); };

@@ -10,8 +10,13 @@ namespace undex::scene {
 
 /// Depth [m] of a point in something: positive inside, changing by at most the distance moved.
 using Depth = std::function<double(const Vec3&)>;
-/// The same; where it is no less than `beyond`, any number that is no less either.
-using NearDepth = std::function<double(const Vec3&, double beyond)>;
+/// Of a surface whose distance is dear: where it is no less than `beyond`, any number that is no less either.
+struct NearDepth : std::function<double(const Vec3&, double beyond)> {
+  using function::function;
+  NearDepth(const Depth& exact) : function([exact](const Vec3& x, double) { return exact(x); }) {}
+};
+
+Vec3 gradient(const Depth& depth, const Vec3& x, double step, int dimension);
 
 NearDepth inside(const Shape& shape, int dimension);
 NearDepth outside(const Shape& shape, int dimension);

@@ -67,7 +67,7 @@ void Validator::overlaps() {
     for (const Structure& structure : structures_) {
       if (!structure.shape || dimension_ != 3) continue;
       const Bounds window = common(extent, structure.shape->extent());
-      if (const auto at = find_in_both(structure.near_depth(), inside(*later.shape, 3), window, tolerance(), 3))
+      if (const auto at = find_in_both(structure.depth(), inside(*later.shape, 3), window, tolerance(), 3))
         complain(*later.node, "shape",
                  later.path() + " overlaps " + structure.named() + ", e.g. at " + text(*at, 3) +
                      " m; make it end at the structure's face, or take the structure's shape out of it (subtract)");

@@ -224,7 +224,7 @@ void Validator::room_for(std::size_t index) {
                path + " overlaps " + parts_[i].path() + ", e.g. at " + text(*at, dimension_) + " m; move one of them");
   for (const Structure& each : structures_) {
     if (!each.shape || dimension_ != 3) continue;
-    if (const auto at = find_in_both(each.near_depth(), inside(shape, 3), common(window, each.shape->extent()), tolerance(), 3))
+    if (const auto at = find_in_both(each.depth(), inside(shape, 3), common(window, each.shape->extent()), tolerance(), 3))
       complain(node, "shape", path + " overlaps " + each.named() + ", e.g. at " + text(*at, 3) + " m; move one of them");
   }
   if (scene_.start.kind == Start::Kind::plane_wave) {

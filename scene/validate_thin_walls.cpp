@@ -7,12 +7,6 @@ namespace {
 
 constexpr std::size_t most_points = 4000;
 
-Vec3 gradient(const Depth& depth, const Vec3& x, double step, int dimension) {
-  Vec3 slope = Vec3::Zero();
-  for (int a = 0; a < dimension; ++a) slope[a] = (depth(x + step * Vec3::Unit(a)) - depth(x - step * Vec3::Unit(a))) / (2 * step);
-  return slope;
-}
-
 /// The way from a point on a solid's surface straight through it [m], nothing where it is longer than `most`.
 std::optional<double> way_through(const Depth& solid, const Vec3& x, const Vec3& inward, double most) {
   const double least = 1e-4 * most;

@@ -49,9 +49,6 @@ class Validator {
     Depth depth() const {
       return [this](const Vec3& x) { return -shape->signed_distance(x); };
     }
-    NearDepth near_depth() const {
-      return [this](const Vec3& x, double) { return -shape->signed_distance(x); };
-    }
   };
 
   // validate.cpp
@@ -87,6 +84,7 @@ class Validator {
   // validate_structure.cpp
   void structures();
   void structure(const Structure& one);
+  void faces_water(const Structure& one, const std::string& face);
   void apart(const Structure& first, const Structure& later);
   void pieces(const Structure& one);
   void wet_face(const std::string& path, const Node& node, const std::vector<Vec3>& points, const std::string& face);

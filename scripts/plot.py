@@ -5,7 +5,8 @@ Usage: /usr/bin/python3 scripts/plot.py DIR [--reference FOLDER] [--times 15,30,
        /usr/bin/python3 scripts/plot.py --compare DIR [--dpi N]      DIR: what undex compare wrote
 
 The first reads DIR/summary.json, resolved.toml, history/*.csv, energy.csv, bodies.csv, forces.csv, lines/*.csv,
-fields/particles.h5part, solids.h5part and structure_*.hdf as far as they are there, and writes DIR/pictures/*.png. Needs python3-numpy, python3-matplotlib, python3-h5py
+fields/particles.h5part, solids.h5part and structure_*.hdf as far as they are there, and writes DIR/pictures/*.png.
+Needs python3-numpy, python3-matplotlib, python3-h5py
 (Debian's own).
 """
 import argparse

@@ -40,8 +40,10 @@ class Mesh:
     def write(self, path):
         number = lambda value: f"{value:.9g}"
         lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(self.names)), *self.names, "$EndPhysicalNames",
-                 "$Nodes", str(len(self.nodes)), *(f"{tag} {' '.join(map(number, x))}" for tag, x in enumerate(self.nodes, 1)), "$EndNodes",
-                 "$Elements", str(len(self.elements)), *(f"{tag} {element}" for tag, element in enumerate(self.elements, 1)), "$EndElements"]
+                 "$Nodes", str(len(self.nodes)),
+                 *(f"{tag} {' '.join(map(number, x))}" for tag, x in enumerate(self.nodes, 1)), "$EndNodes",
+                 "$Elements", str(len(self.elements)),
+                 *(f"{tag} {element}" for tag, element in enumerate(self.elements, 1)), "$EndElements"]
         path.write_text("\n".join(lines) + "\n")
         print(f"{path.name}: {len(self.nodes)} nodes, {len(self.elements)} elements")
 

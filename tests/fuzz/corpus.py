@@ -21,7 +21,8 @@ RECORD = {
 }
 OVERRIDES = ["resolution.spacing=0.0015", "symmetry.planes=[]", "bodies.water.material=water-steinberg", "structure.material=al-5086-o",
              "bodies.charge.material.E0=5.5e6", "probes.midline.point=[0, 0.1, 0]", "walls.tank.faces.high=open", "bodies.0.shape.low=0",
-             "solids.0.velocity=[1, 2, 3]", "structures.back.material=steel-s7", "start.kind=plain", "scheme.name=paper", "threads=2", "end_time=1e-5", "gravity=[0,0,-9.81]"]
+             "solids.0.velocity=[1, 2, 3]", "structures.back.material=steel-s7", "start.kind=plain", "scheme.name=paper",
+             "threads=2", "end_time=1e-5", "gravity=[0,0,-9.81]"]
 
 
 def two_cubes(version):
@@ -65,8 +66,8 @@ def tee(version):
     if version == 2.1:
         kind = 16
         quads = [(group, quad + [middle(quad[k], quad[(k + 1) % 4]) for k in range(4)]) for group, quad in quads]
-    lines = ["$MeshFormat", f"{2.2 if version == 2.1 else version} 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '1 5 "edge"', '2 1 "plate"', '2 2 "bars"',
-             "$EndPhysicalNames"]
+    lines = ["$MeshFormat", f"{2.2 if version == 2.1 else version} 0 8", "$EndMeshFormat",
+             "$PhysicalNames", "3", '1 5 "edge"', '2 1 "plate"', '2 2 "bars"', "$EndPhysicalNames"]
     if version < 4:
         lines += ["$Nodes", str(len(nodes)), *(words((tag + 1, *x)) for tag, x in enumerate(nodes)), "$EndNodes"]
         lines += ["$Elements", str(len(quads) + 1), f"1 1 2 5 5 {words(edge)}"]
