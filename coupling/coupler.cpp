@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <stdexcept>
 #include <variant>
 
 #include "coupling/liquid_layers.hpp"
+#include "coupling/wall_depth.hpp"
 
 namespace undex::coupling {
 
@@ -45,6 +48,23 @@ WetSurface part_of(const WetSurface& surface, std::size_t first, std::size_t las
   return part;
 }
 
+/// A closed face of a wall in which a wet face lies would bear a part of its load.
+void expect_open(const WetSurface& surface, const sph::Settings& fluid) {
+  const double near = 1e-3 * fluid.lattice.spacing;
+  const auto lies_in_wall = [&](const std::array<int, 4>& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](int n) { return std::abs(depth_in_walls(surface.nodes[std::size_t(n)], fluid)) < near; });
+  };
+  const auto found = std::find_if(surface.faces.begin(), surface.faces.end(), lies_in_wall);
+  if (found == surface.faces.end()) return;
+  const Vec3& x = surface.nodes[std::size_t((*found)[0])];
+  char place[120];
+  std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g) m", x[0], x[1], x[2]);
+  throw std::invalid_argument(
+      std::string("wet: a closed face of a wall lies in the wet surface, e.g. at ") + place +
+      ", and would bear a part of its load; let that face of the wall be \"open\", which the structure closes");
+}
+
 }  // namespace
 
 Coupler::Coupler(Flow& flow, WetBody& structure, const Settings& settings)
@@ -56,6 +76,7 @@ Coupler::Coupler(Flow& flow, WetBody& structure, const Settings& settings)
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
+  expect_open(structure.wet_surface(), fluid_.settings());
   const std::vector<std::size_t> begin = structure.wet_walls();
   for (std::size_t k = 0; k + 1 < begin.size(); ++k) {
     if (begin[k + 1] == begin[k]) continue;

@@ -103,6 +103,9 @@ void check_units(const TableReader& table, const Solid& solid) {
 
 /// Moduli, of gels to diamond, are told by the wave speed that they make with the density [kg/m^3] that is meant.
 void check_moduli(const TableReader& table, const Solid& solid, double density, double wave_speed) {
+  constexpr double softest = 1e3;  // [Pa], of gels
+  if (table.has("shear_modulus") && solid.shear_modulus > 0 && solid.shear_modulus < softest)
+    return expect_unit(table, "shear_modulus", table.path_of("shear_modulus"), "a solid", usual_modulus, solid.shear_modulus);
   if (wave_speed > 30 && wave_speed < 1e5) return;
   const char* key = table.has("young_modulus") ? "young_modulus" : "shear_modulus";
   double value = solid.shear_modulus;

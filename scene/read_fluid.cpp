@@ -4,6 +4,7 @@
 #include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
+#include "scene/geometry.hpp"
 #include "scene/line.hpp"
 #include "scene/numbers.hpp"
 #include "scene/plausible.hpp"
@@ -197,8 +198,37 @@ void read_burn(const TableReader& table, Draft& draft, sph::Body& body) {
   if (body.burn) expect_plausible_burn(burn, *products, body.burn->D, draft.warnings);
 }
 
+/// Pressure and density make the energy of a law that has one, and must not contradict what is given beside them.
+void settle_state(const TableReader& table, sph::Body& body) {
+  const double density = *body.density, pressure = *body.pressure;
+  const auto at = [&](double energy) {
+    return std::visit([&](const auto& law) { return law.evaluate(density, energy); }, body.material.law);
+  };
+  if (uses_energy(body.material.law) && !body.energy) {
+    const double far = 1e8,
+                 slope = (at(2 * far).pressure - at(far).pressure) / far;  // all laws are linear in it where they are hot
+    if (slope > 0) body.energy = far + (pressure - at(far).pressure) / slope;
+  }
+  const PressureSound found = at(sph::start_energy(body));
+  const double known = 1e-6 * std::abs(pressure) + 1e-9 * density * found.sound_speed * found.sound_speed;
+  if (!(std::abs(found.pressure - pressure) <= known))
+    table.complain("pressure", table.path_of("pressure") + " = " + shortest(pressure) + " Pa and the density " +
+                                   shortest(density) + " kg/m^3 " + (table.has("energy") ? "with this energy " : "") +
+                                   "contradict each other: the law has " + rounded(found.pressure) +
+                                   " Pa there; leave one of them out");
+}
+
 /// Can the body have its pressure?
-void check_pressure(const TableReader& table, const sph::Body& body) {
+void check_pressure(const TableReader& table, sph::Body& body, Report& warnings) {
+  if (body.pressure && body.burn)
+    return table.complain("pressure", table.path_of("pressure") +
+                                          ": the pressure of a charge follows from its burn; leave it out, " +
+                                          "or let burn be \"instantaneous\" for a gas of its products");
+  if (body.pressure && body.density) settle_state(table, body);
+  const bool cold = std::holds_alternative<IdealGas>(body.material.law) && find_fluid(body.material.name);
+  if (cold && !body.pressure && !body.energy)
+    warnings.add(table.node(), table.path() + ": '" + body.material.name +
+                                   "' has no pressure without energy; give its pressure (or energy = 0 for a gas so cold)");
   if (!body.pressure || body.density) return;
   try {
     const double density = sph::start_density(body);
@@ -223,10 +253,10 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
     shape_good = read_shape(*shape, table.path_of("shape"), draft, ShapeUse::any, body.shape.base);
   read_subtractions(table, draft, index, body.shape.removed);
   if (!material_good) return body;
-  if (std::holds_alternative<StiffenedGas>(body.material.law))
+  if (std::holds_alternative<StiffenedGas>(body.material.law) && !(body.pressure && body.density))
     table.need("energy", "law \"stiffened_gas\" has the pressure p at e = (p + gamma p_inf)(1 - b rho)/((gamma - 1) rho) + q");
   read_burn(table, draft, body);
-  check_pressure(table, body);
+  check_pressure(table, body, draft.warnings);
   check_level(table, draft, shape_good, body);
   expect_surrounded(table, draft, body);
   if (body.energy && !uses_energy(body.material.law))
@@ -273,6 +303,23 @@ bool is_free_form(const Node* shape) {
   return !container;
 }
 
+/// Bodies that reach beyond the box of a wall of any shape would go on behind it.
+void expect_within(const TableReader& wall, const Draft& draft, const Bounds& box) {
+  const Bounds kept = kept_part(draft.scene.fluid.symmetry.axis);
+  for (std::size_t b = 0; b < draft.scene.fluid.bodies.size(); ++b) {
+    const sph::Body& body = draft.scene.fluid.bodies[b];
+    if (!draft.body_shape_good[b]) continue;
+    const Bounds extent = common(kept, bounds(body.shape, wall.dimension()));
+    for (int a = 0; a < wall.dimension(); ++a)
+      if (extent.low[a] < std::max(box.low[a], kept.low[a]) || extent.high[a] > box.high[a]) {
+        wall.complain("shape", wall.path_of("shape") + ": bodies." + body.name + " reaches from " + rounded(extent.low[a]) +
+                                   " to " + rounded(extent.high[a]) + " m along " + "xyz"[a] +
+                                   ", far outside of the wall; draw it within");
+        break;
+      }
+  }
+}
+
 /// A wall of any shape is a rigid obstacle about it: a box with that hole.
 void read_free_wall(const TableReader& table, const Node& shape, Draft& draft) {
   const std::size_t before = draft.report.size();
@@ -297,6 +344,7 @@ void read_free_wall(const TableReader& table, const Node& shape, Draft& draft) {
       box.high[a] = a < table.dimension() ? box.high[a] + thickness : 0.0;
     }
     around.shape = Difference{{Box{box.low, box.high}, hole}};
+    expect_within(table, draft, box);
   }
   if (table.dimension() == 1) table.complain("shape", table.path_of("shape") + ": in one dimension a wall is a \"box\"");
   draft.scene.obstacles.push_back(around);

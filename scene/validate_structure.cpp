@@ -25,7 +25,30 @@ void Validator::structure(const Structure& one) {
   if (draft_.body_nodes.empty() && !one.settings->wet_faces.empty())
     complain(node, "wet", one.path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
   if (fluid && shape && draft_.spacing_good && all_usable())
-    for (const std::string& face : one.settings->wet_faces) wet_face(one.path, node, shape->face_points(face), face);
+    for (const std::string& face : one.settings->wet_faces) {
+      wet_face(one.path, node, shape->face_points(face), face);
+      faces_water(one, face);
+    }
+}
+
+/// Has a wet face its water behind it, on the other side of a thin wall?
+void Validator::faces_water(const Structure& one, const std::string& face) {
+  const std::vector<Vec3> points = one.shape->face_points(face);
+  const double step = 0.1 * std::min(one.shape->thickness(), fluid_.lattice.spacing);
+  constexpr std::size_t most = 60;
+  bool behind = false;
+  for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / most) {
+    const Vec3& x = points[k];
+    if (!in_kept_part(x) || distance_to_water(x) > near()) continue;
+    const Vec3 out = -gradient(one.depth(), x, 0.1 * step, 3);
+    if (!(out.norm() > 0.5)) continue;  // on an edge
+    if (distance_to_water(x + step * out.normalized()) < distance_to_water(x - step * out.normalized())) return;
+    behind = true;
+  }
+  if (behind)
+    complain(*one.node, "wet",
+             one.path + ".wet: the face '" + face +
+                 "' looks away from the water, which lies behind it; name the face on the other side of the wall");
 }
 
 /// Structures do not overlap, and nothing holds those together that touch.
@@ -34,7 +57,7 @@ void Validator::apart(const Structure& first, const Structure& later) {
   const double thinnest = std::min(first.shape->thickness(), later.shape->thickness()), touching = 1e-3 * thinnest;
   const Bounds beside = later.shape->extent();
   const Bounds window = common(common(kept_, first.shape->extent()), beside);
-  if (const auto at = find_in_both(first.near_depth(), later.near_depth(), window, touching, 3)) {
+  if (const auto at = find_in_both(first.depth(), later.depth(), window, touching, 3)) {
     complain(*later.node, "shape", later.path + " overlaps " + first.path + ", e.g. at " + text(*at, 3) + " m; move one of them");
     return;
   }

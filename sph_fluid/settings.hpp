@@ -219,7 +219,7 @@ void describe(Body& body, Visit&& visit) {
   visit(body.pressure, {.name = "pressure",
                         .unit = "Pa",
                         .values = "attainable",
-                        .meaning = "at the start; gives the density unless that is named too"});
+                        .meaning = "at the start; gives the density, or with `density` the energy"});
   visit(body.level,
         {.name = "level",
          .unit = "m",
@@ -235,7 +235,7 @@ void describe(Body& body, Visit&& visit) {
                        .meaning = "at the start"});
   visit(body.energy, {.name = "energy",
                       .unit = "J/kg",
-                      .rule = "the material's own (`E0` of a charge, else 0)",
+                      .rule = "from `pressure` and `density`, else the material's own (`E0` of a charge, else 0)",
                       .meaning = "internal energy at the start; not for barotropic laws"});
   visit(ByHand{}, {.name = "burn",
                    .rule = "programmed, from the middle of the shape",

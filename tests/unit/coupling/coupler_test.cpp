@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 namespace undex::coupling::testing {
@@ -96,6 +97,16 @@ TEST(Coupler, ImpulseGivenIsImpulseReceived) {
   EXPECT_LT((column.structure.ledger().momentum - ledger.impulse_received).norm(), 1e-10 * ledger.impulse_given.norm());
   const Vec3 lost = fluid_before - column.fluid.ledger().momentum;
   EXPECT_NEAR(lost[2], ledger.impulse_given[2], 1e-10 * ledger.impulse_given[2]);
+}
+
+/// The channel ends in the plate: a closed end there would bear a part of what the plate is given.
+TEST(Coupler, RefusesAClosedEndInTheWetFace) {
+  sph::Settings closed = Column::water({});
+  closed.walls[0].faces["z_high"] = sph::FaceCondition::free_slip;
+  sph::Fluid fluid(closed);
+  Flow flow(fluid);
+  fem::Structure plate(Column::plate({}));
+  EXPECT_THROW(Coupler(flow, plate, {}), std::invalid_argument);
 }
 
 /// Nothing but water and plate: the momentum of the two together does not change, in any direction.

@@ -107,6 +107,38 @@ TEST(Plausibility, ExplosivesAreCompletedFromTheirOwnState) {
           "which no explosive has; is it in Pa?");
 }
 
+/// Two of pressure, density and energy make a state; a third must agree, and a barotropic law takes one.
+TEST(Plausibility, StatesAreWholeAndDoNotContradictThemselves) {
+  const auto start = [](const std::string& material, const std::string& keys) {
+    return "end_time = 1e-6\n[resolution]\nspacing = 0.1\n[[bodies]]\nname = \"gas\"\nmaterial = \"" + material +
+           "\"\nshape = {type = \"sphere\", radius = 1}\n" + keys;
+  };
+  for (const auto& [material, density, pressure] : {std::tuple("air", 1.204, 101325.0),
+                                                    {"water-steinberg", 1010.0, 1e5},
+                                                    {"water-polynomial", 990.0, 1e6},
+                                                    {"water-sg-sussman", 1001.0, 3e5},
+                                                    {"petn", 1000.0, 2e9}}) {
+    const scene::Scene scene =
+        read_text(start(material, "density = " + std::to_string(density) + "\npressure = " + std::to_string(pressure) + "\n" +
+                                      (std::string(material) == "petn" ? "burn = \"instantaneous\"\n" : "")));
+    const sph::Body& body = scene.fluid.bodies[0];
+    const double found =
+        std::visit([&](const auto& law) { return law.evaluate(sph::start_density(body), sph::start_energy(body)).pressure; },
+                   body.material.law);
+    EXPECT_NEAR(found, pressure, 1e-6 * pressure + 10) << material;
+    EXPECT_EQ(sph::start_density(body), density) << material;
+    if (std::string(material) == "air") {
+      EXPECT_NEAR(sph::start_energy(body), 101325 / (0.4 * 1.204), 1);
+    }
+  }
+  refused(start("air", "density = 1.204\npressure = 101325\nenergy = 1\n"), "contradict each other: the law has 0.4816 Pa there");
+  refused(start("water-tait", "density = 1010\npressure = 1e5\n"), "and the density 1010 kg/m^3 contradict each other");
+  EXPECT_EQ(mistakes(start("water-tait", "density = 1000\npressure = 1e5\n")), "");
+  refused(start("petn", "pressure = 1e5\n"), "bodies.gas.pressure: the pressure of a charge follows from its burn; leave it out");
+  warned(start("air", ""), "'air' has no pressure without energy; give its pressure");
+  EXPECT_EQ(warnings(start("air", "energy = 0\n")), "");
+}
+
 TEST(Plausibility, SetsThatAreNotToBeReliedOnAreSaid) {
   warned(with(coupled_tube, "material = \"petn\"", "material = \"c-4\""), "'c-4' is unverified: its source lists another");
   warned(with(coupled_tube, "material = \"water-tait\"", "material = \"water-paper-mg\""), "'water-paper-mg' is of grade D");
@@ -160,6 +192,10 @@ TEST(Plausibility, OtherUnitsOfSolidsAreGuessed) {
   refused(
       steel("rho0 = 7800", "rho0 = 7.8"),
       "structure.material.rho0 = 7.8 [kg/m^3] is not that of a solid, 20 to 30000; is it in g/cm^3? In kg/m^3 it would be 7800");
+  refused(steel("young_modulus = 210e9, poisson_ratio = 0.3",
+                "shear_modulus = 80, pressure = {law = \"mie_gruneisen\", C = 4600, "
+                "S = 1.3, Gamma = 1.7}"),
+          "shear_modulus = 80 [Pa]");
   refused(steel("rho0 = 7800", "rho0 = 7.8e-9"), "is it in t/mm^3? In kg/m^3 it would be 7800");
   refused(steel("210e9", "210"), "young_modulus = 210 [Pa] makes a wave speed of 0.19");
   refused(steel("210e9", "210"), "is it in GPa? In Pa it would be 2.1e+11");

@@ -184,7 +184,7 @@ shape = {type = "box", low = [0.1, 0, 0], high = [0.2, 0.1, 0.1]}
 material = {base = "water-steinberg", cavitation = "none", S3 = 0.1}
 [[bodies]]
 name = "jacket"
-shape = {type = "tube", axis = "z", inner_radius = 0.055, outer_radius = 0.07, low = -0.1, high = 0.1}
+shape = {type = "tube", axis = "z", inner_radius = 0.045, outer_radius = 0.07, low = -0.1, high = 0.1}
 material = {law = "barotropic_gas", rho0 = 1, p0 = 1e5, gamma = 1.4}
 [[bodies]]
 name = "air"

@@ -94,6 +94,8 @@ TEST(Shapes, MistakesHaveRemedies) {
       {obstacle + "{type = \"half_space\", normal = [1, 0, 0]}\n", "obstacles.o.shape.type must be one of box, sphere"},
       {obstacle + "{type = \"difference\", shapes = [{type = \"half_space\", normal = [1, 0, 0]}, " + sphere + "]}\n",
        "obstacles.o.shape has no end"},
+      {wall + "{type = \"union\", shapes = [" + sphere + "]}\n",
+       "bodies.water reaches from 0 to 0.4 m along x, far outside of the wall"},
       {wall + "{type = \"half_space\", normal = [1, 0, 0]}\n", "walls.w.shape.type must be one of box, sphere"},
       {wall + "{type = \"box\", low = [0, 0, 0], high = [0.4, 0.4, 0.4], rotate = [0, 0, 45]}\ncondition = \"no_slip\"\n",
        "walls.w.condition: only a box, cylinder, cone or sphere along the axes has another condition"},

@@ -123,6 +123,8 @@ TEST(Structures, MistakesNameTheirTable) {
          "structures.back.wet is empty, so the water does not see the structure; name the faces that it touches");
   expect(with(with(two_plates, "wet = [\"z_low\"]\n", "wet = [\"z_high\"]\n"), "0.027]", "0.029]"),
          "structures.back.wet: the face 'z_high' touches no water");
+  expect(with(two_plates, "wet = [\"z_low\"]\n", "wet = [\"z_high\"]\n"),
+         "structures.back.wet: the face 'z_high' looks away from the water");
   expect(with(two_plates, "name = \"back\"", "name = \"front\""),
          "structures: the name 'front' is used twice; choose another one");
   expect("dimension = 2\n" + with(dry, "end_time = 1e-5\n", "end_time = 1e-5\n"),
