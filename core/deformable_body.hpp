@@ -92,6 +92,8 @@ class WetBody {
 
   /// The faces that water touches; none where the body is not coupled by faces.
   virtual const WetSurface& wet_surface() const = 0;
+  /// Its faces by name; what is not named is in none.
+  virtual std::vector<NamedFaces> wet_faces() const { return {}; }
   /// Where the nodes of each wall begin that it is for the water, which share no face, and the count of all.
   virtual std::vector<std::size_t> wet_walls() const { return {0, wet_surface().nodes.size()}; }
   /// Of its nodes, in its order, at time(): [m], [m/s], [m/s^2]. Accelerations still hold the impulse of the last advance().

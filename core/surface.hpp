@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/vector.hpp"
@@ -15,6 +16,12 @@ namespace undex {
 struct WetSurface {
   std::vector<Vec3> nodes;                ///< reference positions [m], one per wet node
   std::vector<std::array<int, 4>> faces;  ///< indices into nodes
+};
+
+/// Faces of it that are one face of the body, by a name that the scene knows: those from `first` to below `last`.
+struct NamedFaces {
+  std::string name;
+  std::size_t first, last;
 };
 
 /// Is the face a segment of a plane or a meridian?

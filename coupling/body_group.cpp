@@ -42,6 +42,8 @@ BodyGroup::BodyGroup(std::vector<Member> members)
     const int first = static_cast<int>(surface_.nodes.size());
     first_.push_back(surface_.nodes.size());
     surface_.nodes.insert(surface_.nodes.end(), wet.nodes.begin(), wet.nodes.end());
+    for (const NamedFaces& named : body.wet_faces())
+      faces_.push_back({member.name + "." + named.name, surface_.faces.size() + named.first, surface_.faces.size() + named.last});
     for (std::array<int, 4> face : wet.faces) {
       for (int& node : face) node += first;
       surface_.faces.push_back(face);

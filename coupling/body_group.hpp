@@ -32,6 +32,8 @@ class BodyGroup : public WetBody {
 
   /// Nodes and faces of a member come after those of the member before it.
   const WetSurface& wet_surface() const override { return surface_; }
+  /// "MEMBER.FACE".
+  std::vector<NamedFaces> wet_faces() const override { return faces_; }
   std::vector<std::size_t> wet_walls() const override { return first_; }
   std::span<const Vec3> wet_positions() const override { return position_; }
   std::span<const Vec3> wet_velocities() const override { return velocity_; }
@@ -71,6 +73,7 @@ class BodyGroup : public WetBody {
   std::vector<Pair> pairs_;
   std::vector<std::vector<Vec3>> before_;  // positions before a step: scratch
   WetSurface surface_;
+  std::vector<NamedFaces> faces_;
   std::vector<std::size_t> first_;  // wet node of each, and the count of all
   std::vector<Vec3> position_, velocity_, acceleration_;
   std::vector<double> mass_;

@@ -73,6 +73,7 @@ Coupler::Coupler(Flow& flow, WetBody& structure, const Settings& settings)
       structure_(structure),
       settings_(settings),
       added_mass_(added_mass_limit(fluid_.settings(), structure)),
+      on_faces_(structure.wet_surface(), structure.wet_faces()),
       predicted_position_(structure.wet_surface().nodes.size()),
       predicted_velocity_(predicted_position_.size()),
       nodal_impulse_(predicted_position_.size(), Vec3::Zero()) {
@@ -147,6 +148,7 @@ Coupler::Window Coupler::advance(double end) {
     const auto timer = timers_.measure("coupling");
     collect_impulse();
     ledger_.book_received(nodal_impulse_);
+    on_faces_.book(nodal_impulse_, structure_.wet_positions());
   }
   structure_.advance(fluid_.time(), nodal_impulse_);
   window.structure_steps = structure_.steps() - structure_steps;
@@ -155,6 +157,7 @@ Coupler::Window Coupler::advance(double end) {
 
 void Coupler::visit_state(StateVisitor& state) {
   ledger_.visit_state(state);
+  on_faces_.visit_state(state);
   state("timers", timers_);
 }
 

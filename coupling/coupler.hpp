@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "core/deformable_body.hpp"
+#include "coupling/face_impulses.hpp"
 #include "coupling/flow.hpp"
 #include "coupling/interface_ledger.hpp"
 #include "coupling/settings.hpp"
@@ -43,6 +44,7 @@ class Coupler {
   void visit_state(StateVisitor& state);
 
   InterfaceLedger ledger() const;
+  const FaceImpulses& on_faces() const { return on_faces_; }
   const WetWall& wall() const { return walls_.front().wall; }
   const PassTimers& timers() const { return timers_; }
 
@@ -67,6 +69,7 @@ class Coupler {
   sph::StepLimit added_mass_;
   PassTimers timers_;
   InterfaceLedger ledger_;
+  FaceImpulses on_faces_;
   std::vector<Vec3> predicted_position_, predicted_velocity_, nodal_impulse_;
 };
 

@@ -237,6 +237,7 @@ struct Structure::Implementation {
   PassTimers timers;
 
   WetSurface wet;
+  std::vector<NamedFaces> wet_faces;
   std::vector<int> wet_nodes;
   std::vector<Vec3> wet_position, wet_velocity, wet_acceleration;
   std::vector<double> wet_mass;
@@ -298,7 +299,8 @@ struct Structure::Implementation {
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     std::vector<int> number(grid.nodes.size(), -1);
-    for (const std::string& name : names)
+    for (const std::string& name : names) {
+      wet_faces.push_back({name, wet.faces.size(), wet.faces.size() + grid.faces.at(name).size()});
       for (const auto& quad : grid.faces.at(name)) {
         std::array<int, 4> face;
         for (int v = 0; v < 4; ++v) {
@@ -312,6 +314,7 @@ struct Structure::Implementation {
         }
         wet.faces.push_back(face);
       }
+    }
     for (auto* field : {&wet_position, &wet_velocity, &wet_acceleration}) field->resize(wet_nodes.size());
     wet_mass = carried_by(wet_nodes, grid, elements.nodal_mass());
   }
@@ -560,6 +563,7 @@ double Structure::time() const { return self_->time; }
 long Structure::steps() const { return self_->steps; }
 
 const WetSurface& Structure::wet_surface() const { return self_->wet; }
+std::vector<NamedFaces> Structure::wet_faces() const { return self_->wet_faces; }
 std::span<const Vec3> Structure::wet_positions() const { return self_->wet_position; }
 std::span<const Vec3> Structure::wet_velocities() const { return self_->wet_velocity; }
 std::span<const Vec3> Structure::wet_accelerations() const { return self_->wet_acceleration; }

@@ -38,6 +38,7 @@ class Structure : public DeformableBody {
   void advance(double t_end, std::span<const Vec3> impulse = {}) override;
 
   const WetSurface& wet_surface() const override;
+  std::vector<NamedFaces> wet_faces() const override;
   /// The velocity is the half-step one carried to the end of the step, v(t) = v(t - dt/2) + dt/2 a(t), and a(t) holds the impulse
   /// of the last advance() as a steady force.
   std::span<const Vec3> wet_positions() const override;

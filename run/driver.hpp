@@ -23,6 +23,8 @@ class Driver {
   virtual Step advance(double end) = 0;
   /// What has crossed the wet faces; nothing where nothing is coupled by them.
   virtual std::optional<coupling::InterfaceLedger> interface() const { return std::nullopt; }
+  /// The same of each named face; null where nothing is coupled by faces that have names.
+  virtual const coupling::FaceImpulses* on_faces() const { return nullptr; }
   virtual PassTimers timers() const { return {}; }  ///< its own
   virtual void visit_state(StateVisitor&) {}        ///< its own, beside that of those whom it advances
 };
@@ -52,6 +54,7 @@ class Coupled : public Driver {
   Coupled(coupling::Flow& flow, WetBody& body, const coupling::Settings& settings) : coupler_(flow, body, settings) {}
   Step advance(double end) override;
   std::optional<coupling::InterfaceLedger> interface() const override { return coupler_.ledger(); }
+  const coupling::FaceImpulses* on_faces() const override { return &coupler_.on_faces(); }
   PassTimers timers() const override { return coupler_.timers(); }
   void visit_state(StateVisitor& state) override { coupler_.visit_state(state); }
 

@@ -5,8 +5,6 @@
 namespace undex::run {
 namespace {
 
-/// In place of a wall's face: the structure; one of several is two and its number below 0.
-constexpr int all_structure = -1;
 const char* const names_of_faces[] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high", "side"};
 
 /// Which faces of the walls mirror the fluid.
@@ -30,27 +28,38 @@ ForceHistory::ForceHistory(const scene::Scene& scene, const Simulation& simulati
   columns_ = {{"time", "s"}};
   // Vectors of the meridian are those of the axis of revolution: what whole rings receive across it is nothing.
   const std::optional<Meridian>& meridian = simulation.meridian();
-  const auto add = [&](const std::string& name, int face, int first, int end) {
-    receivers_.push_back({face, first, end});
+  const auto add = [&](const std::string& name, int first, int end, std::function<Vec3(const Simulation&)> impulse) {
+    receivers_.push_back({std::move(impulse), first, end});
     for (int a = first; a < end; ++a) {
       columns_.push_back({name + ".force_" + "xyz"[a], "N"});
       columns_.push_back({name + ".impulse_" + "xyz"[a], "N s"});
     }
   };
   const int first = meridian ? meridian->axis : 0, end = meridian ? meridian->axis + 1 : dimension;
-  if (simulation.on_structure() && scene.structures.size() < 2) add("structure", all_structure, first, end);
-  if (simulation.on_structure() && scene.structures.size() > 1)
+  const auto in_space = [](const Simulation& of, const Vec3& given) {
+    return of.meridian() ? of.meridian()->vector_in_space(given, of.meridian()->outward()) : given;
+  };
+  const bool several = scene.structures.size() > 1;
+  if (simulation.on_structure() && !several)
+    add("structure", first, end, [=](const Simulation& of) { return in_space(of, of.on_structure()->impulse_given); });
+  if (simulation.on_structure() && several)
     for (std::size_t k = 0; k < scene.structures.size(); ++k)
-      if (!scene.structures[k].wet_faces.empty()) add("structures." + scene.structures[k].name, -2 - int(k), first, end);
+      if (!scene.structures[k].wet_faces.empty())
+        add("structures." + scene.structures[k].name, first, end, [k](const Simulation& of) { return of.accounts()[k].impulse; });
+  if (const coupling::FaceImpulses* faces = simulation.on_faces(); faces && faces->faces().size() > 1)
+    for (std::size_t k = 0; k < faces->faces().size(); ++k)
+      add((several ? "structures." : "structure.") + faces->faces()[k].name, first, end,
+          [=](const Simulation& of) { return in_space(of, of.on_faces()->impulse()[k]); });
   if (const sph::Fluid* fluid = simulation.fluid()) {
     const auto found = mirroring(sph::slip_faces(fluid->settings()));
     for (int face = 0; face < sph::fixed_face_count; ++face) {
       if (!found[std::size_t(face)]) continue;
+      const auto impulse = [=](const Simulation& of) { return in_space(of, of.fluid()->on_fixed_faces()[std::size_t(face)]); };
       if (!meridian) {
         const bool round = face == sph::round_face;
-        add(std::string("walls.") + names_of_faces[face], face, round ? 0 : face / 2, round ? dimension : face / 2 + 1);
+        add(std::string("walls.") + names_of_faces[face], round ? 0 : face / 2, round ? dimension : face / 2 + 1, impulse);
       } else if (face == 2 || face == 3) {
-        add(std::string("walls.") + (face == 2 ? "low" : "high"), face, meridian->axis, meridian->axis + 1);
+        add(std::string("walls.") + (face == 2 ? "low" : "high"), meridian->axis, meridian->axis + 1, impulse);
       }
     }
   }
@@ -68,14 +77,6 @@ void ForceHistory::visit_state(StateVisitor& state) {
   history_.emplace(output::History::continued(path_, samples_));
 }
 
-Vec3 ForceHistory::impulse_on(const Receiver& receiver, const Simulation& simulation) const {
-  if (receiver.face < all_structure) return simulation.accounts()[std::size_t(-2 - receiver.face)].impulse;
-  const Vec3 given = receiver.face == all_structure ? simulation.on_structure()->impulse_given
-                                                    : simulation.fluid()->on_fixed_faces()[std::size_t(receiver.face)];
-  const std::optional<Meridian>& meridian = simulation.meridian();
-  return meridian ? meridian->vector_in_space(given, meridian->outward()) : given;
-}
-
 void ForceHistory::sample(const Simulation& simulation) {
   if (receivers_.empty()) return;
   std::vector<double> row{simulation.time()};
@@ -83,7 +84,7 @@ void ForceHistory::sample(const Simulation& simulation) {
   const double since = rows > 0 ? simulation.time() - samples_.values[0][rows - 1] : 0.0;
   std::size_t column = 1;
   for (const Receiver& receiver : receivers_) {
-    const Vec3 impulse = impulse_on(receiver, simulation);
+    const Vec3 impulse = receiver.impulse(simulation);
     for (int a = receiver.first; a < receiver.end; ++a, column += 2) {
       const double before = rows > 0 ? samples_.values[column + 1][rows - 1] : 0.0;
       row.push_back(since > 0 ? (impulse[a] - before) / since : 0.0);

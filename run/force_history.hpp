@@ -1,7 +1,9 @@
-// forces.csv: what the water gives to the structure and to slip faces of walls that stand still, of the computed part.
+// forces.csv: what the water gives to structures, to each of their wet faces, and to slip faces of walls that stand still, of the
+// computed part.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,12 +26,11 @@ class ForceHistory {
   const output::Samples& samples() const { return samples_; }
 
  private:
-  /// The structure, or a face of the walls: components of a vector from `first` to below `end`.
+  /// Who receives: components of its impulse [N s], in the frame of the solvers, from `first` to below `end`.
   struct Receiver {
-    int face;  ///< of sph::OnFixedFaces; -1: the structure, -2 - k: that of several with the number k
+    std::function<Vec3(const Simulation&)> impulse;
     int first, end;
   };
-  Vec3 impulse_on(const Receiver& receiver, const Simulation& simulation) const;
 
   std::vector<Receiver> receivers_;
   std::vector<output::Column> columns_;

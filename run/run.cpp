@@ -21,6 +21,7 @@
 #include "run/room.hpp"
 #include "run/simulation.hpp"
 #include "run/starts.hpp"
+#include "run/validity.hpp"
 
 namespace undex::run {
 namespace {
@@ -245,6 +246,10 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   if (const LineFlow* line = simulation.line(); line && !line->remark().empty()) {
     result.record.warnings.push_back(line->remark());
     if (options.verbosity >= 0) std::fprintf(stderr, "warning: %s\n", line->remark().c_str());
+  }
+  for (const std::string& beyond : beyond_validity(scene, result.record.largest)) {
+    result.record.warnings.push_back(beyond);
+    if (options.verbosity >= 0) std::fprintf(stderr, "warning: %s\n", beyond.c_str());
   }
   const auto& not_kept = checkpoints.warnings();
   result.record.warnings.insert(result.record.warnings.end(), not_kept.begin(), not_kept.end());

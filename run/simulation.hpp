@@ -110,6 +110,8 @@ class Simulation {
   std::vector<double> fluid_field(const std::string& name) const { return fluid_ ? fluid_->field(name) : line_->field(name); }
   /// What the water has given to the wet faces since the start [N s], of the computed part; nothing where nothing is coupled.
   std::optional<coupling::InterfaceLedger> on_structure() const { return driver_->interface(); }
+  /// The same of each of the wet faces that have names; null where there are none.
+  const coupling::FaceImpulses* on_faces() const { return driver_->on_faces(); }
   const std::vector<std::unique_ptr<DeformableBody>>& bodies() const { return bodies_; }
   /// Of each structure, in the scene's order, where there are several; else none.
   std::vector<StructureAccount> accounts() const;

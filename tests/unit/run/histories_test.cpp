@@ -12,6 +12,7 @@
 #include "run/body_history.hpp"
 #include "run/observer.hpp"
 #include "run/starts.hpp"
+#include "run/validity.hpp"
 #include "scenes.hpp"
 
 namespace undex::run::test {
@@ -297,6 +298,84 @@ TEST_F(Histories, ForceOnAStructureIsWhatItReceives) {
 }
 
 /// A velocity that grows with the place, read at places about which particles lie evenly.
+/// A block that hangs into the water: its bottom and its sides are faces of their own.
+TEST_F(Histories, ForcesOnFacesAreThoseOfTheStructure) {
+  const auto block = [](const std::string& table, const std::string& floor, const std::string& more) {
+    return R"(
+end_time = 2e-5
+threads = 1
+[resolution]
+spacing = 0.01
+[[bodies]]
+name = "water"
+shape = {type = "box", low = [0, 0, -0.1], high = [0.1, 0.1, 0]}
+subtract = [{type = "box", low = [0, 0, -0.05], high = [0.05, 0.05, 0.05]}]
+material = "water-tait"
+pressure = 2e6
+[[walls]]
+name = "tank"
+shape = {type = "box", low = [0, 0, -0.1], high = [0.1, 0.1, 0.1]}
+faces = {z_high = "open")" +
+           floor + R"(}
+[symmetry]
+planes = ["x", "y"]
+)" + table +
+           R"(
+name = "block"
+shape = {type = "plate", low = [-0.05, -0.05, -0.05], high = [0.05, 0.05, 0.05]}
+cells = {x = 10, y = 10, z = 10}
+material = "al-6061-t6"
+wet = ["z_low", "x_high", "y_high"]
+[output]
+histories = ["forces"]
+)" + more;
+  };
+  const Samples one = observed(read_text(block("[structure]", "", ""))).evidence.forces;
+  for (char axis : {'x', 'y', 'z'}) {
+    const std::string column = std::string(".impulse_") + axis;
+    double sum = 0;
+    for (const char* face : {"z_low", "x_high", "y_high"}) sum += last(one, std::string("structure.") + face + column);
+    EXPECT_NEAR(sum / last(one, "structure" + column), 1.0, 1e-12) << axis;
+  }
+  EXPECT_GT(last(one, "structure.z_low.impulse_z"), 0.9 * last(one, "structure.impulse_z"));
+  EXPECT_LT(last(one, "structure.x_high.impulse_x"), 0.9 * last(one, "structure.impulse_x"));
+  EXPECT_NEAR(last(one, "structure.x_high.impulse_x") / last(one, "structure.y_high.impulse_y"), 1.0, 1e-3);
+  EXPECT_LT(last(one, "structure.x_high.impulse_x"), 0.0);
+
+  const std::string other = R"(
+[[structures]]
+name = "other"
+shape = {type = "plate", low = [-0.1, -0.1, -0.11], high = [0.1, 0.1, -0.1]}
+cells = {x = 8, y = 8, z = 2}
+material = "al-6061-t6"
+wet = ["z_high"]
+)";
+  const Samples two = observed(read_text(block("[[structures]]", ", z_low = \"open\"", other))).evidence.forces;
+  for (const char* column : {"z_low.impulse_z", "x_high.impulse_x"})
+    EXPECT_NEAR(last(two, std::string("structures.block.") + column) / last(one, std::string("structure.") + column), 1.0, 1e-3);
+}
+
+/// A set of the library is left where the largest pressure lies beyond its own; one's own set has none.
+TEST(Validity, SaysWhichSetsWereLeft) {
+  scene::Scene scene;
+  const auto body = [&](const char* name, const char* material, double pressure) {
+    sph::Body& added = scene.fluid.bodies.emplace_back();
+    added.name = name;
+    added.material.name = material;
+    return output::LargestRecord{.part = name, .quantity = "pressure", .value = pressure, .place = {0.1, 0, 0}, .time_s = 2e-6};
+  };
+  const std::vector<output::LargestRecord> largest{body("near", "water-tait", 3e9),
+                                                   body("far", "water-tait", 1.04e9),
+                                                   body("other", "water-steinberg", 3e9),
+                                                   body("own", "my water", 3e9),
+                                                   {.part = "near", .quantity = "speed", .value = 5e9, .place = {}, .time_s = 0}};
+  EXPECT_EQ(
+      beyond_validity(scene, largest),
+      std::vector<std::string>{"bodies.near reached 3 GPa at (0.1, 0, 0) m, 2e-06 s, beyond the 1 GPa to which 'water-tait' "
+                               "may be used; 'undex materials --kind water' shows sets that go further"});
+  EXPECT_TRUE(beyond_validity(scene, {}).empty());
+}
+
 TEST_F(Histories, ProfileOfALinearFieldIsExact) {
   const scene::Scene scene = read_text(
       R"(
