@@ -9,8 +9,7 @@
 
 namespace undex::run {
 
-/// A sentence for each body and solid whose set of the library has been left: its largest pressure lies more than a twentieth
-/// beyond the set's own (materials/pedigree.hpp). Sets of one's own have no such pressure.
+/// A sentence for each body and solid whose largest pressure lies beyond its set of the library (scene::beyond_set).
 std::vector<std::string> beyond_validity(const scene::Scene& scene, const std::vector<output::LargestRecord>& largest);
 
 }  // namespace undex::run

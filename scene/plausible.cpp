@@ -195,4 +195,12 @@ void expect_plausible_burn(const TableReader& burn, const Jwl& products, double 
   }
 }
 
+std::string beyond_set(std::string_view material, double pressure) {
+  constexpr double margin = 1.05;  // the sets' own pressures are round numbers
+  const auto pedigree = find_pedigree(material);
+  if (!pedigree || !(pressure > margin * pedigree->valid_to)) return {};
+  return "beyond the " + rounded(1e-9 * pedigree->valid_to) + " GPa to which '" + pedigree->name +
+         "' may be used; 'undex materials --kind " + pedigree->kind + "' shows sets that go further";
+}
+
 }  // namespace undex::scene

@@ -2,6 +2,9 @@
 // themselves.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "materials/equation_of_state.hpp"
 #include "materials/solid.hpp"
 #include "scene/table_reader.hpp"
@@ -23,5 +26,9 @@ void expect_plausible(const TableReader& table, const materials::FluidLaw& law, 
 void expect_plausible(const TableReader& table, const materials::Solid& solid, Report& warnings);
 /// The same of the front that a scene gives a charge of `products`, at `speed` [m/s].
 void expect_plausible_burn(const TableReader& burn, const materials::Jwl& products, double speed, Report& warnings);
+
+/// What is to be said of a pressure [Pa] that lies more than a twentieth beyond those to which a set of the library may be used;
+/// empty where it does not, or is no set of the library.
+std::string beyond_set(std::string_view material, double pressure);
 
 }  // namespace undex::scene
