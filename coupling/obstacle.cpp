@@ -109,7 +109,39 @@ bool can_move(const Obstacle& obstacle, const std::array<bool, 6>& free, const V
   return false;
 }
 
-/// The wet part: without what lies beyond symmetry planes, or in a plane or wall that it cannot part from.
+/// Faces of a closed surface that is the box about the obstacle, where all fluid is within: a wall drawn as a box with a hole.
+std::vector<bool> outside_of_all(const WetSurface& whole, const Obstacle& obstacle, const sph::Settings& fluid) {
+  const double near = 1e-6 * fluid.lattice.spacing;
+  const Bounds box = bounds(obstacle.shape, fluid.dimension);
+  std::vector<int> group(whole.nodes.size());
+  std::iota(group.begin(), group.end(), 0);
+  const auto first_of = [&](int n) {
+    while (group[std::size_t(n)] != n) n = group[std::size_t(n)] = group[std::size_t(group[std::size_t(n)])];
+    return n;
+  };
+  for (const auto& face : whole.faces)
+    for (int n : face) group[std::size_t(first_of(n))] = first_of(face[0]);
+  std::vector<bool> on_box(whole.nodes.size(), true);  // of the first of a group
+  for (int n = 0; n < int(whole.nodes.size()); ++n) {
+    bool touches = false;
+    for (int a = 0; a < fluid.dimension; ++a)
+      for (double side : {box.low[a], box.high[a]}) touches = touches || std::abs(whole.nodes[std::size_t(n)][a] - side) < near;
+    if (!touches) on_box[std::size_t(first_of(n))] = false;
+  }
+  bool all_within = true;
+  for (const sph::Body& body : fluid.bodies) {
+    const Bounds extent = bounds(body.shape, fluid.dimension);
+    for (int a = 0; a < fluid.dimension; ++a)
+      all_within =
+          all_within && (fluid.symmetry.axis[a] || extent.low[a] > box.low[a] - near) && extent.high[a] < box.high[a] + near;
+  }
+  std::vector<bool> outside;
+  for (const auto& face : whole.faces) outside.push_back(all_within && on_box[std::size_t(first_of(face[0]))]);
+  return outside;
+}
+
+/// The wet part: without what no fluid comes to, what lies beyond symmetry planes, or in a plane or wall that it cannot part
+/// from.
 WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, const std::array<bool, 3>& cut,
                        const std::array<bool, 6>& free) {
   const double spacing = fluid.lattice.spacing, near = 1e-6 * spacing;
@@ -138,8 +170,9 @@ WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, con
     return std::all_of(face.begin(), face.end(), [&](int n) { return holds(whole->nodes[std::size_t(n)]); });
   };
   const Vec3 center = mass_properties(obstacle.shape, fluid.dimension, fluid.axisymmetric).centroid;
-  std::vector<bool> dry;
-  for (const auto& face : whole->faces) {
+  std::vector<bool> dry = outside_of_all(*whole, obstacle, fluid);
+  for (std::size_t f = 0; f < whole->faces.size(); ++f) {
+    const auto& face = whole->faces[f];
     bool beyond = false, touches = all(face, [&](const Vec3&x) { return depth_in_walls(x, fluid) <= near; });
     for (int a = 0; a < fluid.dimension; ++a) {
       if (!fluid.symmetry.axis[a] || !all(face, [&](const Vec3& x) { return x[a] <= 0.0; })) continue;
@@ -156,7 +189,7 @@ WetSurface wet_surface(const Obstacle& obstacle, const sph::Settings& fluid, con
           refuse(obstacle, obstacle.motion == Motion::free ? "fixed" : "direction",
                  "it touches a wall or symmetry plane beside the water and may part from it, where contact is not built; let it "
                  "stand two spacings off, or hold it there (fixed)");
-    dry.push_back(beyond || (touches && !parts));
+    dry[f] = dry[f] || beyond || (touches && !parts);
   }
   WetSurface wet = without(*whole, dry);
   if (wet.faces.empty()) refuse(obstacle, "shape", "nothing of it stands within the walls and symmetry planes; move it");

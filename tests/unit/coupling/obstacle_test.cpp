@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "core/closed_surface.hpp"
 #include "core/mass_properties.hpp"
 
 namespace undex::coupling::testing {
@@ -130,6 +131,31 @@ TEST(Obstacles, SurfacesShowPlacesMotionAndPressure) {
       EXPECT_EQ(later.of_points[1].values[3 * n + 1], 2.0);
     }
   }
+}
+
+/// A box with a hole is a wall about what it holds: of its two surfaces the outer one meets no fluid. It does where the fluid is
+/// on both sides, or the hole has a mouth.
+TEST(Obstacles, TheOutsideOfAWallIsLeftOut) {
+  const Primitive ball = Sphere{Vec3::Zero(), 0.05}, around = Box{Vec3::Constant(-0.08), Vec3::Constant(0.08)};
+  const Obstacle wall = obstacle_of(Difference{{around, ball}}, Motion::fixed);
+  const auto area_of = [](const WetSurface& surface) {
+    double sum = 0;
+    for (const auto& face : surface.faces) sum += face_area(face, surface.nodes);
+    return sum;
+  };
+  const double inner = 4 * pi * 0.05 * 0.05, outer = 6 * 0.16 * 0.16;
+  sph::Settings settings = water(3, 0.01, ball, {});
+  const RigidObstacle alone(wall, settings);
+  EXPECT_NEAR(area_of(alone.surface()) / inner, 1.0, 0.02);
+  settings.symmetry.axis = {true, false, true};
+  EXPECT_NEAR(area_of(RigidObstacle(wall, settings).surface()) / (inner / 4), 1.0, 0.02);
+
+  const sph::Settings both = water(3, 0.01, Box{Vec3::Constant(-0.12), Vec3::Constant(0.12)}, {wall});
+  EXPECT_NEAR(area_of(RigidObstacle(wall, both).surface()) / (inner + outer), 1.0, 0.02);
+
+  const Primitive mouth = Cylinder{2, Vec3::Zero(), 0.02, 0.0, 0.09};
+  const Obstacle bottle = obstacle_of(Difference{{around, ball, mouth}}, Motion::fixed);
+  EXPECT_GT(area_of(RigidObstacle(bottle, water(3, 0.01, ball, {})).surface()), 0.9 * (inner + outer));
 }
 
 TEST(Obstacles, WaterAndAFreeBodyKeepMomentumAndEnergy) {
