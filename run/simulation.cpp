@@ -191,7 +191,9 @@ void Simulation::take_start(const scene::Scene& scene) {
   gravity_ = scene.fluid.gravity;
   surrounded_ = scene.fluid.surroundings.pressure > 0;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
-            scene.structures.empty();
+            scene.structures.empty() &&
+            std::all_of(scene.solids.bodies.begin(), scene.solids.bodies.end(),
+                        [](const solid::Body& solid) { return solid.supports.empty(); });
   start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();

@@ -77,7 +77,8 @@ class Simulation {
   double momentum_error() const;
   /// Of everything together, of the computed part, in the frame of the solvers [N s].
   Vec3 momentum() const;
-  /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
+  /// The same of the angular momentum about the origin, of solids alone; nothing where there is more, or a
+  /// wall, plane, support, load or gravity may turn them.
   std::optional<double> angular_momentum_error() const;
   /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6
   /// of all energy, so that rest is no error); nothing where there is no interface.
