@@ -117,15 +117,15 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 
 }  // namespace
 
-Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
+Simulation::Simulation(const scene::Scene& scene, const sph::SettleNews& news) : meridian_(scene.meridian) {
   const scene::Scene solved = scene::for_solvers(scene);
   copies_ = scene::mirror_copies(scene);
   mirrored_ = scene.fluid.symmetry.axis;
-  build(solved);
+  build(solved, news);
   take_start(solved);
 }
 
-void Simulation::build(const scene::Scene& scene) {
+void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
   std::vector<Finding> findings;
   const auto attempt = [&](const std::string& table, auto build) {
     try {
@@ -159,7 +159,7 @@ void Simulation::build(const scene::Scene& scene) {
       for (const auto& body : bodies_) flow_->watch(*body);
     });
   if (findings.empty()) attempt("coupling", [&] { make_driver(scene, solids); });
-  if (findings.empty() && fluid_) fluid_->settle();
+  if (findings.empty() && fluid_) fluid_->settle(news);
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 

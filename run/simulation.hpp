@@ -54,7 +54,7 @@ struct StructureAccount {
 class Simulation {
  public:
   /// An axisymmetric scene is computed in its meridian. Throws SceneError where a solver refuses its part of the scene.
-  explicit Simulation(const scene::Scene& scene);
+  explicit Simulation(const scene::Scene& scene, const sph::SettleNews& news = {});
 
   double time() const;
   long steps() const;
@@ -118,7 +118,7 @@ class Simulation {
   std::string fastest_particle() const;
 
  private:
-  void build(const scene::Scene& scene);
+  void build(const scene::Scene& scene, const sph::SettleNews& news);
   /// `solids`: those in particles, if there are some.
   void make_driver(const scene::Scene& scene, solid::Solids* solids);
   void take_start(const scene::Scene& scene);
