@@ -117,8 +117,8 @@ std::string describe(const scene::Scene& given, std::string* drawing) {
   text += expect_room(scene) + "\n";
   const auto before = Clock::now();
   if (const std::string report = begin(scene); !report.empty()) text += report + "\n";
-  const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
   Simulation simulation(scene);
+  const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
   if (drawing) *drawing = picture(scene, simulation);
   double memory = 0;
   if (const sph::Fluid* fluid = simulation.fluid()) {

@@ -20,6 +20,7 @@
 #include "run/record.hpp"
 #include "run/room.hpp"
 #include "run/simulation.hpp"
+#include "run/start_news.hpp"
 #include "run/starts.hpp"
 #include "run/validity.hpp"
 
@@ -139,6 +140,13 @@ output::RunRecord record_without_state(const scene::Scene& scene, const Course& 
   return record;
 }
 
+std::string settling_text(std::size_t moved, double unevenness) {
+  char words[120];
+  std::snprintf(words, sizeof words, "start: %zu particles are moved until they rest; pressure uneven by %.2g %%", moved,
+                100 * unevenness);
+  return words;
+}
+
 /// Notes the first reason why something of the folder is not as it should be.
 template <class Write>
 void attempt(const Write& write, std::string& not_saved) {
@@ -165,7 +173,9 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
     const std::string report = begin(scene, {.quiet = quiet, .numerics = options.numerics, .output = options.output});
     if (!report.empty() && !quiet) std::printf("%s\n", report.c_str());
   }
-  Simulation simulation(scene);
+  StartNews news(options.verbosity < 0);
+  Simulation simulation(scene,
+                        [&](std::size_t moved, double unevenness) { news([&] { return settling_text(moved, unevenness); }); });
   for (sph::Body& body : scene.fluid.bodies) body.start.reset();  // it may hold much
   const std::vector<std::string> warnings = warnings_of(scene, options.output);
   if (options.verbosity >= 0)

@@ -117,15 +117,15 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
 
 }  // namespace
 
-Simulation::Simulation(const scene::Scene& scene) : meridian_(scene.meridian) {
+Simulation::Simulation(const scene::Scene& scene, const sph::SettleNews& news) : meridian_(scene.meridian) {
   const scene::Scene solved = scene::for_solvers(scene);
   copies_ = scene::mirror_copies(scene);
   mirrored_ = scene.fluid.symmetry.axis;
-  build(solved);
+  build(solved, news);
   take_start(solved);
 }
 
-void Simulation::build(const scene::Scene& scene) {
+void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
   std::vector<Finding> findings;
   const auto attempt = [&](const std::string& table, auto build) {
     try {
@@ -159,7 +159,7 @@ void Simulation::build(const scene::Scene& scene) {
       for (const auto& body : bodies_) flow_->watch(*body);
     });
   if (findings.empty()) attempt("coupling", [&] { make_driver(scene, solids); });
-  if (findings.empty() && fluid_) fluid_->settle();
+  if (findings.empty() && fluid_) fluid_->settle(news);
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
 }
 
@@ -191,7 +191,9 @@ void Simulation::take_start(const scene::Scene& scene) {
   gravity_ = scene.fluid.gravity;
   surrounded_ = scene.fluid.surroundings.pressure > 0;
   closed_ = copies_ == 1 && !meridian_ && gravity_.isZero() && scene.fluid.walls.empty() && scene.solids.planes.empty() &&
-            scene.structures.empty();
+            scene.structures.empty() &&
+            std::all_of(scene.solids.bodies.begin(), scene.solids.bodies.end(),
+                        [](const solid::Body& solid) { return solid.supports.empty(); });
   start_time_ = time();
   start_mass_ = mass();
   start_momentum_ = momentum();

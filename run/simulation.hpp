@@ -54,7 +54,7 @@ struct StructureAccount {
 class Simulation {
  public:
   /// An axisymmetric scene is computed in its meridian. Throws SceneError where a solver refuses its part of the scene.
-  explicit Simulation(const scene::Scene& scene);
+  explicit Simulation(const scene::Scene& scene, const sph::SettleNews& news = {});
 
   double time() const;
   long steps() const;
@@ -77,7 +77,8 @@ class Simulation {
   double momentum_error() const;
   /// Of everything together, of the computed part, in the frame of the solvers [N s].
   Vec3 momentum() const;
-  /// The same of the angular momentum about the origin, of solids alone; nothing where there is more or it is not conserved.
+  /// The same of the angular momentum about the origin, of solids alone; nothing where there is more, or a
+  /// wall, plane, support, load or gravity may turn them.
   std::optional<double> angular_momentum_error() const;
   /// (work given - work received) over the larger of the two across the interface, rigid bodies included (but not less than 1e-6
   /// of all energy, so that rest is no error); nothing where there is no interface.
@@ -119,7 +120,7 @@ class Simulation {
   std::string fastest_particle() const;
 
  private:
-  void build(const scene::Scene& scene);
+  void build(const scene::Scene& scene, const sph::SettleNews& news);
   /// `solids`: those in particles, if there are some.
   void make_driver(const scene::Scene& scene, solid::Solids* solids);
   void take_start(const scene::Scene& scene);

@@ -25,6 +25,37 @@ bool is_bare_word(const std::string& text) {
   });
 }
 
+/// A number, and after it what may be a unit: "1 ms", "1.63 g/cm3", "2 kg*m^-3".
+bool has_a_unit(const std::string& text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [unit, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, number);
+  return error == std::errc() && unit != end && std::all_of(unit, end, [](unsigned char c) {
+           return std::isalnum(c) || c >= 0x80 || std::string_view(" _-+./*^%").find(char(c)) != std::string_view::npos;
+         });
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+bool parse_value(const std::string& text, Node& into);
+
+/// [1 cm, 0, 0]: a list of numbers some of which have a unit.
+bool parse_quantities(const std::string& text, Node& into) {
+  if (text.size() < 2 || text.front() != '[' || text.back() != ']' || text.find_first_of("\"'[]{}=\n", 1) != text.size() - 1)
+    return false;
+  Node list;
+  list.kind = Node::Kind::array;
+  for (std::size_t from = 1, to = 0; from < text.size(); from = to + 1) {
+    to = std::min(text.find(',', from), text.size() - 1);
+    if (!parse_value(trimmed(text.substr(from, to - from)), list.items.emplace_back())) return false;
+  }
+  into = std::move(list);
+  return true;
+}
+
 void mark(Node& node, const std::string& origin) {
   node.where = {};
   node.origin = origin;
@@ -42,7 +73,8 @@ bool parse_value(const std::string& text, Node& into) {
     into = document.entries.front().node;
     return true;
   } catch (const SceneError&) {
-    if (!is_bare_word(text)) return false;
+    if (parse_quantities(text, into)) return true;
+    if (!is_bare_word(text) && !has_a_unit(text)) return false;
     into.kind = Node::Kind::text;
     into.text = text;
     return true;

@@ -1,5 +1,6 @@
 // [resolution], [symmetry], [scheme], [[bodies]] and [[walls]].
 #include <algorithm>
+#include <numbers>
 
 #include "scene/alternatives.hpp"
 #include "scene/draft.hpp"
@@ -238,6 +239,68 @@ void check_pressure(const TableReader& table, sph::Body& body, Report& warnings)
   }
 }
 
+/// The mass [kg] of a ball of the body's start; nothing where it has no density.
+std::optional<double> mass_of_ball(const sph::Body& body, double radius) {
+  try {
+    const double mass = sph::start_density(body) * 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+    if (mass > 0 && std::isfinite(mass)) return mass;
+  } catch (const std::domain_error&) {  // its pressure is complained of
+  }
+  return std::nullopt;
+}
+
+/// The shape of a body of that mass [kg]: a sphere without radius is given one. Nothing where it cannot have the mass.
+std::optional<Node> shape_of_mass(const TableReader& table, const Node& shape, const sph::Body& body, double mass) {
+  const Node* type = shape.find("type");
+  const Node* subtract = table.find("subtract");
+  const auto refuse = [&](const std::string& why) {
+    table.complain("mass", table.path_of("mass") + ' ' + why);
+    return std::nullopt;
+  };
+  if (type && type->kind == Node::Kind::text && type->text != "sphere")
+    return refuse("needs a sphere, not a \"" + type->text + "\"; leave it out and give the shape's lengths");
+  if (table.dimension() != 3)
+    return refuse("needs a sphere in space, and the scene has dimension = " + std::to_string(table.dimension()) +
+                  "; give the radius in its place");
+  if (subtract && subtract->kind == Node::Kind::array && !subtract->items.empty())
+    return refuse("needs a whole sphere, and `subtract` takes some of it; give the radius in its place");
+  Node sized = shape;
+  if (shape.kind != Node::Kind::table || shape.find("radius")) return sized;
+  const auto of_one_metre = mass_of_ball(body, 1);
+  if (!of_one_metre) return std::nullopt;
+  Node radius;
+  radius.where = shape.where;
+  radius.origin = shape.origin;
+  radius.kind = Node::Kind::number;
+  radius.number = std::cbrt(mass / *of_one_metre);
+  sized.entries.push_back({"radius", shape.where, radius});
+  return sized;
+}
+
+/// A radius that is given beside the mass must be the mass's.
+void expect_mass(const TableReader& table, const sph::Body& body, double mass) {
+  constexpr double agreement = 1e-3;
+  const auto* placed = std::get_if<Placed>(&body.shape.base);
+  const auto* ball = std::get_if<Sphere>(placed ? &placed->shape[0] : &body.shape.base);
+  const auto own = ball ? mass_of_ball(body, ball->radius) : std::nullopt;
+  if (own && std::abs(*own / mass - 1) > agreement)
+    table.complain("mass", table.path_of("mass") + " = " + shortest(mass) + " [kg] and the radius " + shortest(ball->radius) +
+                               " m contradict each other: at " + rounded(sph::start_density(body)) + " kg/m^3 that sphere has " +
+                               rounded(*own) + " kg; leave one of them out");
+}
+
+void read_body_shape(const TableReader& table, Draft& draft, bool material_good, sph::Body& body, bool& good) {
+  const Node* shape = table.find("shape");
+  if (!shape) return;
+  double mass = 0;
+  const bool by_mass = table.read("mass", mass);
+  if (table.has("mass") && !(by_mass && material_good)) return;  // complained of
+  const std::optional<Node> sized = by_mass ? shape_of_mass(table, *shape, body, mass) : *shape;
+  if (!sized) return;
+  good = read_shape(*sized, table.path_of("shape"), draft, ShapeUse::any, body.shape.base);
+  if (good && by_mass) expect_mass(table, body, mass);
+}
+
 sph::Body read_body(const Node& node, const std::string& path, Draft& draft, bool& shape_good, std::size_t index) {
   Report& report = draft.report;
   const TableReader table(node, path, "bodies", draft.scene.fluid.dimension, report);
@@ -249,8 +312,7 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   read_fields(table, body);
   read_level(table, draft.scene.fluid.gravity, body);
   read_radial(table, body.radial);
-  if (const Node* shape = table.find("shape"))
-    shape_good = read_shape(*shape, table.path_of("shape"), draft, ShapeUse::any, body.shape.base);
+  read_body_shape(table, draft, material_good, body, shape_good);
   read_subtractions(table, draft, index, body.shape.removed);
   if (!material_good) return body;
   if (std::holds_alternative<StiffenedGas>(body.material.law) && !(body.pressure && body.density))

@@ -1,4 +1,7 @@
-// Times that a run would never come to the end of: steps, snapshots and rows without number, and a start that comes too late.
+// Times that a run would never come to the end of, or never come to: steps, snapshots and rows without number, what is asked for
+// after its end, and a start that comes too late.
+#include <iterator>
+
 #include "scene/opened.hpp"
 #include "scene/validator.hpp"
 
@@ -19,6 +22,7 @@ double sound_at_rest(const sph::Body& body) {
 }  // namespace
 
 void Validator::times() {
+  unwritten();
   const double end = scene_.end_time;
   if (!(end > 0)) return;
   const auto expect = [&](const char* table, const char* key, double interval, double most, const char* what,
@@ -52,6 +56,40 @@ void Validator::times() {
                  rounded(most_steps) + "; is it in s? Else take a larger spacing");
     return;
   }
+}
+
+/// What is asked for at times that the run does not come to is never written.
+void Validator::unwritten() {
+  const double end = scene_.end_time;
+  if (!(end > 0)) return;
+  const bool later = scene_.start.kind == Start::Kind::spherical || scene_.start.kind == Start::Kind::run;
+  const double begin = later ? scene_.start.time.value_or(0) : 0.0;
+  const auto expect = [&](const Node& node, const std::string& path, const std::string& key, const std::vector<double>& times,
+                          double interval, const char* what) {
+    std::vector<double> missed;
+    std::copy_if(times.begin(), times.end(), std::back_inserter(missed),
+                 [&](double time) { return time > end * (1 + 1e-12) || time < begin * (1 - 1e-12); });
+    if (!missed.empty()) {
+      const bool early = missed.front() < begin;
+      const std::string which = missed.size() == 1 ? shortest(missed[0]) + " s lies"
+                                                   : std::to_string(missed.size()) + " of " + std::to_string(times.size()) +
+                                                         " (such as " + shortest(missed[0]) + " s) lie";
+      warn(node, (key + "times").c_str(),
+           path + '.' + key + "times: " + which +
+               (early ? " outside the run, from start.time = " + shortest(begin) + " s to" : " after") +
+               " end_time = " + shortest(end) + " s, and " + what + " is written there; take " +
+               (early ? "times within it" : "a later end_time or earlier times") + " (is it in s?)");
+    }
+    if (interval > end)
+      warn(node, (key + "interval").c_str(),
+           path + '.' + key + "interval = " + shortest(interval) + " [s] is longer than the run, to end_time = " + shortest(end) +
+               " s, and " + what + " is written after the start; take a shorter interval or a later end_time");
+  };
+  if (const Node* output = draft_.root.find("output"))
+    expect(*output, "output", "field_", scene_.output.field_times, scene_.output.field_interval, "no snapshot");
+  for (std::size_t i = 0; i < scene_.lines.size(); ++i)
+    expect(*draft_.line_nodes[i], "lines." + scene_.lines[i].name, "", scene_.lines[i].times, scene_.lines[i].interval,
+           "no profile");
 }
 
 /// By start.time the wave must not have reached the obstacle, and it runs faster than sound.

@@ -118,6 +118,7 @@ class Validator {
 
   // validate_times.cpp
   void times();
+  void unwritten();
   void start_time();
 
   // validate_thin_walls.cpp

@@ -190,6 +190,12 @@ void describe(Body& body, Visit&& visit) {
                    .remedy = "e.g. shape = {type = \"box\", low = [0, 0, 0], high = [1, 1, 1]}",
                    .values = "a [shape](#shapes)",
                    .meaning = "its outside; bounded on all sides"});
+  visit(ByHand{}, {.name = "mass",
+                   .unit = "kg",
+                   .range = Range::positive(),
+                   .rule = "from the shape",
+                   .meaning = "of a whole sphere, with what symmetry planes cut off: its radius follows from `density`, or else "
+                              "`rho0`"});
   visit(body.shape.removed, {.name = "subtract",
                              .values = "list of [shapes](#shapes) and names",
                              .meaning = "what is taken out: shapes, or the shapes of other bodies and of solids by name"});

@@ -228,7 +228,7 @@ class ClusterWork {
     });
     // Images reach beyond the wall that they stand behind.
     looks_ = beside_thin_wall_ || (images && in_.sight.self != nullptr);
-    for (int k = 0; looks_ && k < piece_count_; ++k) look(pieces_[k], images ? SightOf::images : SightOf::particles);
+    for (int k = 0; looks_ && k < piece_count_; ++k) look(pieces_[k], images ? SightOf::images : SightOf::particles, reach);
     pairs_with<State, Sums, Pass::symmetric>(kind);
     looks_ = false;
     if constexpr (Pass::symmetric)
@@ -250,7 +250,7 @@ class ClusterWork {
       looks_ = beside_thin_wall_;
       pieces_[0] = {0, real, image};
       piece_count_ = 1;
-      if (looks_) look(pieces_[0], SightOf::dummies);
+      if (looks_) look(pieces_[0], SightOf::dummies, reach);
       if (Pass::symmetric && out_.wall != nullptr) {
         pairs_with<Wall, WallSums<V>, true>(kind);
         list_.template scatter_sums<WallSums<V>>(0, real, out_.wall, image);
@@ -261,12 +261,12 @@ class ClusterWork {
     });
   }
 
-  /// How much the cluster's particles see of the candidates of a piece.
-  void look(const Piece& piece, SightOf what) {
+  /// How much the cluster's particles see of the candidates of a piece that are within reach.
+  void look(const Piece& piece, SightOf what, double reach) {
     Scratch& s = list_.scratch();
     in_.sight.answer(in_.sight.self, in_,
-                     {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, piece.begin, piece.real, piece.image, s.share,
-                      s.capacity});
+                     {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, piece.begin, piece.real, piece.image, reach,
+                      s.share, s.capacity});
     for (std::uint32_t c = piece.begin; c < piece.real; ++c) {
       const T* block = list_.block(c / W) + c % W;
       s.kept[2 * c] = double(block[List::place]);

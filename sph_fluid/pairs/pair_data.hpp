@@ -68,6 +68,7 @@ struct SightQuestion {
   const double *x, *y, *z;     ///< where [m]
   std::uint32_t first, last;   ///< first <= c < last
   int mirror;                  ///< bit a: seen across the symmetry plane of axis a
+  double reach;                ///< of the pairs: those farther apart do not count [m]
   float* share;                ///< the answer, 0 to 1: share[l * row + c] for particle l of the cluster and candidate c
   std::uint32_t row;
 };

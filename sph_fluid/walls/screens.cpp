@@ -249,13 +249,13 @@ void Screens::find(const Bounds& box, Near& near) const {
   }
 }
 
-void Screens::find(const Near& all, const Vec3& from, Near& near) const {
+void Screens::find(const Near& all, const Vec3& from, double reach, Near& near) const {
   near.clear();
   const auto within = [&](const Vec3& corner, double size) {
-    return (corner - from).squaredNorm() < (reach_ + size) * (reach_ + size);
+    return (corner - from).squaredNorm() < (reach + size) * (reach + size);
   };
   for (const Triangle* t : all.triangles_)
-    if (std::abs(t->normal.dot(from) - t->offset) < reach_ && within(t->corner, t->size)) near.add(*t);
+    if (std::abs(t->normal.dot(from) - t->offset) < reach && within(t->corner, t->size)) near.add(*t);
   for (const Edge* e : all.edges_)
     if (within(e->from, e->along.norm())) near.edges_.push_back(e);
 }

@@ -92,7 +92,7 @@ class Screens {
   };
   void find(const Bounds& box, Near& near) const;
   /// Those of them within reach of a place [m].
-  void find(const Near& all, const Vec3& from, Near& near) const;
+  void find(const Near& all, const Vec3& from, double reach, Near& near) const;
 
   /// What the straight way from a to b [m] meets.
   void follow(const Vec3& a, const Vec3& b, const Near& near, Way& way) const;

@@ -52,7 +52,7 @@ void Sight::answer(const PairInput& in, const SightQuestion& question) const {
   const auto find_all = [&] {
     Bounds box;
     for (int l = 0; l < question.count; ++l) box.include(place(l));
-    box.low -= Vec3::Constant(reach_), box.high += Vec3::Constant(reach_);
+    box.low -= Vec3::Constant(question.reach), box.high += Vec3::Constant(question.reach);
     screens_.find(box, near);
     found = true;
   };
@@ -63,7 +63,7 @@ void Sight::answer(const PairInput& in, const SightQuestion& question) const {
     bool chosen = false;
     const auto about = [&]() -> const Screens::Near& {
       if (!found) find_all();
-      if (!chosen) screens_.find(near, from, nearer);
+      if (!chosen) screens_.find(near, from, question.reach, nearer);
       chosen = true;
       return nearer;
     };
@@ -88,7 +88,7 @@ float Sight::share(const Vec3& from, Code mine, const Vec3& at, const SightQuest
     if (a == b && (mine & its & edge) == 0) return 1.0f;
     if (a != b && ((mine | its) & edge) == 0) return 0.0f;
   }
-  if ((at - from).squaredNorm() > reach_ * reach_) return 0.0f;
+  if ((at - from).squaredNorm() > question.reach * question.reach) return 0.0f;
   const unsigned axes = unsigned(question.mirror);
   if (images && images_[j].first < images_[j].last) return float(mirrored_share(from, at, j, axes, about(), way));
   screens_.follow(from, at, about(), way);

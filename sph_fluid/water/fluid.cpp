@@ -57,7 +57,7 @@ const std::vector<Vec3>& Fluid::wall_force(LinedIndex index) const {
   return self_->local_steps.wall_force().lined.at(index.number);
 }
 
-void Fluid::settle() { self_->settle(); }
+void Fluid::settle(const SettleNews& news) { self_->settle(news); }
 StepLimit Fluid::step_limit() { return self_->step_limit(); }
 void Fluid::step(double dt) { self_->step(dt); }
 void Fluid::visit_state(StateVisitor& state) { self_->visit_state(state); }

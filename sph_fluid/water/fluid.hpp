@@ -1,7 +1,9 @@
 // The fluid: water, charge and bubble as SPH particles between walls and symmetry planes, advanced in time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +19,9 @@
 #include "sph_fluid/walls/moving_walls.hpp"
 
 namespace undex::sph {
+
+/// Is told while a start settles how many particles are moved, and how uneven their pressure is, as a share of it (settle.hpp).
+using SettleNews = std::function<void(std::size_t moved, double unevenness)>;
 
 /// The largest stable step and what set it.
 struct StepLimit {
@@ -94,7 +99,7 @@ class Fluid {
 
   /// To be called once all walls are there and before the first step: particles that uniform pressure would set in motion are
   /// moved to where it does not (settle.hpp), unless the settings say otherwise.
-  void settle();
+  void settle(const SettleNews& news = {});
 
   /// Valid from construction on: rates are evaluated at once.
   StepLimit step_limit();

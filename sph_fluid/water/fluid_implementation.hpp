@@ -22,11 +22,11 @@ struct Fluid::Implementation : Water {
   // Set-up: start.cpp.
   /// All but the walls as at the start, with particles in these places.
   void begin(std::vector<BodyParticles> bodies);
-  void settle();
+  void settle(const SettleNews& news);
   /// Returns the largest |g| h left.
-  double settle_in_place(std::vector<BodyParticles>& bodies);
+  double settle_in_place(std::vector<BodyParticles>& bodies, const SettleNews& news);
   /// Areas fill the meridian as particles fill a plane: it is settled as one, and the rings' volumes follow, but for their sum.
-  void settle_section(std::vector<BodyParticles>& bodies, double goal) const;
+  void settle_section(std::vector<BodyParticles>& bodies, double goal, const SettleNews& news) const;
   void fill(std::vector<BodyParticles> bodies);
   /// The particles become those that are laid already.
   void take(const LaidParticles& laid, const Group& group);

@@ -67,8 +67,8 @@ class Neighbours {
 
 class Settler {
  public:
-  Settler(Water& water, std::vector<BodyParticles>& bodies, double goal)
-      : water_(water), set_(water.all), bodies_(bodies), aim_(goal) {
+  Settler(Water& water, std::vector<BodyParticles>& bodies, double goal, const SettleNews& news)
+      : water_(water), set_(water.all), bodies_(bodies), news_(news), aim_(goal) {
     if (water.settings.axisymmetric) aim_finely();
     else goal_ = std::max(goal, descended_residual), rest_ = std::max(goal, rest_residual);
   }
@@ -156,6 +156,7 @@ class Settler {
     const Particles& p = set_.particles;
     index_.resize(p.size());
     for (std::uint32_t i = 0; i < p.size(); ++i) index_[p.id[i]] = i;
+    if (news_ && !movers_.empty()) news_(movers_.size(), residual());
   }
 
   /// -g h^2 of particle i in memory [m].
@@ -394,6 +395,7 @@ class Settler {
   Water& water_;
   ParticleSet& set_;
   std::vector<BodyParticles>& bodies_;
+  const SettleNews& news_;
   const double aim_;
   double goal_ = 0, rest_ = 0;        // of |g| h: where settling ends, and from where on it begins
   double density_ = 0;                // [kg/m^3]
@@ -405,11 +407,11 @@ class Settler {
 
 }  // namespace
 
-Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal) {
+Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal, const SettleNews& news) {
   // A wall that moves at the start throws back those that are moved across it: no motion of the scene's.
   const WallLoads impulses = water.walls.impulses();
   const Exchange exchange = water.exchange;
-  const Settled settled = Settler(water, bodies, goal).run();
+  const Settled settled = Settler(water, bodies, goal, news).run();
   water.walls.set_impulses(impulses);
   water.exchange = exchange;
   return settled;

@@ -27,6 +27,6 @@ struct Settled {
 /// gets; with a larger `goal` until |g| h is below that. Left alone are particles within reach of a free surface, of bodies with
 /// another spacing and of bodies that a start has laid. `water` has the scene's settings and all walls; its particles become
 /// others.
-Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal = settled_residual);
+Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal = settled_residual, const SettleNews& news = {});
 
 }  // namespace undex::sph

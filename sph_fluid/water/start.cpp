@@ -35,7 +35,7 @@ void Fluid::Implementation::begin(std::vector<BodyParticles> bodies) {
   if (walls.lined.empty() && walls.mirrors.size() == radiating.count()) evaluation.signals().watch(settings, all);
 }
 
-void Fluid::Implementation::settle() {
+void Fluid::Implementation::settle(const SettleNews& news) {
   if (settings.lattice.settle && !settings.bodies.empty()) {
     // From one start rings may find no way to the goal, and another start leads elsewhere.
     constexpr double as_laid = 1e300;
@@ -48,8 +48,8 @@ void Fluid::Implementation::settle() {
     double least = 1e300;
     for (const double start : starts) {
       std::vector<BodyParticles> bodies = fill_bodies(settings);
-      if (start < as_laid) settle_section(bodies, start);
-      const double left = beside ? 0.0 : settle_in_place(bodies);
+      if (start < as_laid) settle_section(bodies, start, news);
+      const double left = beside ? 0.0 : settle_in_place(bodies, news);
       if (left < least) best = std::move(bodies), least = left;
       if (least <= settled_residual) break;
     }
@@ -58,24 +58,24 @@ void Fluid::Implementation::settle() {
   for (Body& body : settings.bodies) body.start.reset();  // it may hold much
 }
 
-double Fluid::Implementation::settle_in_place(std::vector<BodyParticles>& bodies) {
+double Fluid::Implementation::settle_in_place(std::vector<BodyParticles>& bodies, const SettleNews& news) {
   const std::vector<Body> given = settings.bodies;
   const Vec3 gravity = settings.gravity;
   const Surroundings surroundings = settings.surroundings;
-  const double left = sph::settle(*this, bodies).residual;
+  const double left = sph::settle(*this, bodies, settled_residual, news).residual;
   std::copy(given.begin(), given.end(), settings.bodies.begin());  // groups point to them
   settings.gravity = gravity;
   settings.surroundings = surroundings;
   return left;
 }
 
-void Fluid::Implementation::settle_section(std::vector<BodyParticles>& bodies, double goal) const {
+void Fluid::Implementation::settle_section(std::vector<BodyParticles>& bodies, double goal, const SettleNews& news) const {
   Settings flat = settings;
   flat.axisymmetric = false;
   std::vector<BodyParticles> sections = fill_bodies(flat);
   Water plane(flat);
   plane.walls = walls;
-  if (!sph::settle(plane, sections, goal).moved) return;
+  if (!sph::settle(plane, sections, goal, news).moved) return;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::vector<double>& volume = bodies[b].volume;
     const double before = std::accumulate(volume.begin(), volume.end(), 0.0);

@@ -45,7 +45,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"unknown key of another table", with(two_gases, "spacing = 0.01", "spacing = 0.01\ncourant = 0.3"),
        "6:1: unknown key 'courant' in resolution; it belongs to [scheme]\n"},
       {"unknown key like nothing", with(two_gases, "density = 0.125", "colour = 0.125"),
-       "17:1: unknown key 'colour' in bodies.right; known: name, shape, subtract, material, spacing, velocity, radial_velocity, "
+       "17:1: unknown key 'colour' in bodies.right; known: name, shape, mass, subtract, material, spacing, velocity, "
+       "radial_velocity, "
        "spin, "
        "radial, "
        "pressure, "
@@ -327,6 +328,30 @@ TEST(Mistakes, OfSolids) {
     EXPECT_NE(found.find(each.expected), std::string::npos) << each.what << " gave:\n" << found << "expected:\n" << each.expected;
   }
   EXPECT_EQ(mistakes(alone + "{base = \"al-5086-za\", damage = " + damage + ", T_melt = 893}, spall = {strength = 1e9}}\n"), "");
+}
+
+TEST(Mistakes, OfAMass) {
+  const auto expect = [](const std::string& scene, const std::string& expected) {
+    const std::string found = mistakes(scene);
+    EXPECT_NE(found.find(expected), std::string::npos) << "gave:\n" << found << "expected:\n" << expected;
+  };
+  const auto charge = [](const std::string& shape, const std::string& more, const std::string& dimension = "") {
+    return dimension + "end_time = 1e-5\n[resolution]\nspacing = 0.002\n[[bodies]]\nname = \"charge\"\nshape = " + shape +
+           "\nmaterial = \"tnt\"\n" + more;
+  };
+  const std::string ball = "{type = \"sphere\"}";
+  expect(charge(ball, ""), "bodies.charge.shape.radius is missing");
+  expect(charge(ball, "mass = 0"), "8:8: bodies.charge.mass = 0 [kg] must be greater than 0");
+  expect(charge(ball, "mass = \"5 cm\""), "bodies.charge.mass = \"5 cm\" is none in units of kg");
+  expect(charge(ball, "mass = true"), "bodies.charge.mass must be a number in kg, not true");
+  expect(charge("{type = \"cylinder\", radius = 0.02, low = 0, high = 0.1}", "mass = 0.1"),
+         "bodies.charge.mass needs a sphere, not a \"cylinder\"; leave it out and give the shape's lengths");
+  expect(charge("{type = \"sphere\", radius = 0.02}", "mass = 0.05"),
+         "bodies.charge.mass = 0.05 [kg] and the radius 0.02 m contradict each other: at 1630 kg/m^3 that sphere has 0.0546");
+  expect(charge(ball, "mass = 0.05", "dimension = 2\n"), "needs a sphere in space, and the scene has dimension = 2");
+  expect(charge(ball, "mass = 0.05\nsubtract = [{type = \"sphere\", radius = 0.01}]"),
+         "bodies.charge.mass needs a whole sphere, and `subtract` takes some of it");
+  expect(charge(ball, "mass = 0.05\n[materials.tnt]\nrho0 = -1"), "materials.tnt");
 }
 
 TEST(Mistakes, GoodScenesHaveNone) {

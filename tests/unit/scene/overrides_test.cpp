@@ -46,6 +46,25 @@ TEST(Overrides, ValuesMayCarryAUnit) {
   EXPECT_EQ(scene.fluid.lattice.spacing, 0.005);
 }
 
+/// As the shell leaves them of -P 'end_time=2 us': no second pair of quotes is wanted.
+TEST(Overrides, UnitsMayStandAfterABlank) {
+  const Scene scene = read_text(coupled_tube, {{"end_time", "2 us"},
+                                               {"resolution.spacing", "2.5 mm"},
+                                               {"bodies.water.pressure", "+0.1 MPa"},
+                                               {"symmetry.planes", "[]"},
+                                               {"bodies.water.velocity", "[0, 0, 10 cm s^-1]"},
+                                               {"probes.outer.point", "[5 cm, 0, 0]"}});
+  EXPECT_EQ(scene.end_time, 2e-6);
+  EXPECT_EQ(scene.fluid.lattice.spacing, 0.0025);
+  EXPECT_EQ(scene.fluid.bodies[1].pressure, 1e5);
+  EXPECT_EQ(scene.fluid.bodies[1].velocity, Vec3(0, 0, 0.1));
+  EXPECT_EQ(scene.probes[1].point, Vec3(0.05, 0, 0));
+  EXPECT_EQ(mistakes(two_gases, {{"end_time", "1 kg"}}), "-P end_time: end_time = \"1 kg\" is none in units of s\n");
+  EXPECT_EQ(mistakes(two_gases, {{"end_time", "1 ms 2"}}), mistakes(two_gases, {{"end_time", "\"1 ms 2\""}}));
+  for (const char* wrong : {"1 ms, 2", "[1 ms", "[1 ms; 2]", "[a b, 2]", "[1 ms, [2 ms]]", "1 \"ms\"", "1 ms = 2"})
+    EXPECT_NE(mistakes(two_gases, {{"end_time", wrong}}).find("cannot read the value"), std::string::npos) << wrong;
+}
+
 TEST(Overrides, MistakesNameTheOption) {
   const auto expect = [](const Override& given, const std::string& expected) {
     EXPECT_EQ(mistakes(coupled_tube, {given}), expected);

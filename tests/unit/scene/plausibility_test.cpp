@@ -163,6 +163,25 @@ TEST(Plausibility, MaterialsThatHideTheLibrarysAreSaid) {
   EXPECT_EQ(read_text(scene).fluid.bodies.front().material.rho0, 1630);
 }
 
+/// Snapshots and profiles at times that the run does not come to.
+TEST(Plausibility, TimesBeyondTheEndAreSaid) {
+  const auto output = [](const std::string& keys) { return coupled_tube + "[output]\n" + keys + "\n"; };
+  const auto line = [](const std::string& keys) {
+    return coupled_tube + "[[lines]]\nname = \"across\"\nfrom = [0, 0, 0]\nto = [0.04, 0, 0]\n" + keys + "\n";
+  };
+  for (const std::string& good : {output("field_times = [5e-6, 1e-5]"), output("field_interval = 1e-5"),
+                                  line("times = [0, 1e-5]"), line("interval = 1e-5")})
+    EXPECT_EQ(warnings(good), "");
+  warned(output("field_times = [1e-5, 1e-3, 2e-3]"),
+         "output.field_times: 2 of 3 (such as 0.001 s) lie after end_time = 1e-05 s, and no snapshot is written there; take a "
+         "later end_time or earlier times");
+  warned(line("times = [1e-3]"), "lines.across.times: 0.001 s lies after end_time = 1e-05 s, and no profile is written there");
+  warned(line("interval = 0.01"), "lines.across.interval = 0.01 [s] is longer than the run");
+  warned(output("field_interval = 0.01"), "output.field_interval = 0.01 [s] is longer than the run");
+  warned(line("times = [1e-6]") + "[start]\nkind = \"spherical\"\ntime = 2e-6\n",
+         "lines.across.times: 1e-06 s lies outside the run, from start.time = 2e-06 s to end_time");
+}
+
 TEST(Plausibility, OtherUnitsAreGuessed) {
   refused(with(charge, "D = 6930", "D = 6.93"),
           "material.D = 6.93 [m/s] is not that of an explosive, 500 to 20000; is it in km/s? In m/s it would be 6930");

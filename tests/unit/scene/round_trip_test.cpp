@@ -1,6 +1,9 @@
 // A resolved scene reads back as the same scene, and holds every key.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "scene/schema.hpp"
 #include "scratch.hpp"
 
@@ -448,6 +451,33 @@ TEST(RoundTrip, ReadsBackAsTheSameScene) {
   }
 }
 
+/// A mass is another spelling of a sphere's radius.
+TEST(RoundTrip, KeepsTheRadiusOfAMass) {
+  const auto charge = [](const std::string& dimension, const std::string& shape, const std::string& more) {
+    return dimension +
+           "end_time = 1e-5\n[resolution]\nspacing = 0.002\n[[bodies]]\nname = \"charge\"\nshape = {type = \"sphere\"" + shape +
+           "}\nmaterial = \"tnt\"\n" + more;
+  };
+  const auto radius_of = [](const std::string& text) {
+    const Scratch scratch;
+    const Scene scene = read(scratch.write(text));
+    const std::string resolved = to_toml(scene);
+    EXPECT_EQ(resolved.find("mass = 0.05"), std::string::npos) << resolved;
+    EXPECT_EQ(to_toml(read(scratch.write(resolved, "resolved.toml"))), resolved);
+    const Primitive& shape = scene.fluid.bodies[0].shape.base;
+    const auto* placed = std::get_if<Placed>(&shape);
+    return std::get<Sphere>(placed ? placed->shape[0] : shape).radius;
+  };
+  const double radius = std::cbrt(0.05 / (4.0 / 3.0 * std::numbers::pi * 1630)), half = std::cbrt(2.0) * radius;
+  for (const char* dimension : {"", "dimension = \"spherical\"\n", "dimension = \"axisymmetric\"\naxis = \"z\"\n"}) {
+    EXPECT_NEAR(radius_of(charge(dimension, "", "mass = \"50 g\"\n")), radius, 1e-12) << dimension;
+    EXPECT_NEAR(radius_of(charge(dimension, "", "mass = 0.05\ndensity = 815\n")), half, 1e-12) << dimension;
+  }
+  EXPECT_NEAR(radius_of(charge("", ", move = [0, 0, 0.1]", "mass = 0.05\n")), radius, 1e-12);
+  EXPECT_NEAR(radius_of(charge("", "", "mass = 0.05\n[symmetry]\nplanes = [\"x\", \"y\", \"z\"]\n")), radius, 1e-12);
+  EXPECT_EQ(radius_of(charge("", ", radius = 0.01942", "mass = 0.05\n")), 0.01942);  // of 50.005 g
+}
+
 TEST(RoundTrip, KeepsTheIntegrator) {
   const Scratch scratch;
   const std::string text = with(two_gases, "spacing = 0.01", "spacing = 0.01\n[scheme]\nintegrator = \"ssp_rk3\"");
@@ -627,8 +657,13 @@ TEST(RoundTrip, KeepsFlowStressAndFailure) {
 
 // Keys that a resolved scene does not need: other spellings of what it holds.
 TEST(RoundTrip, ResolvedScenesHoldEveryKey) {
-  const std::vector<std::string> spellings{".materials",          "structure.cell_size",          "walls.condition",
-                                           "material.solid.base", "material.solid.young_modulus", "material.solid.poisson_ratio"};
+  const std::vector<std::string> spellings{".materials",
+                                           "bodies.mass",
+                                           "structure.cell_size",
+                                           "walls.condition",
+                                           "material.solid.base",
+                                           "material.solid.young_modulus",
+                                           "material.solid.poisson_ratio"};
   std::string all;
   for (const std::string& text : rich) all += '\n' + to_toml(read_text(text));
   const Scratch scratch;
