@@ -80,12 +80,12 @@ bool find_file(const TableReader& table, const TableReader& shape, Draft& draft,
     for (int a = 0; a < 3; ++a)
       if (draft.scene.fluid.symmetry.axis[a]) planes.push_back(a);
     if (shell) {
-      const QuadrangleSurface surface = read_gmsh_surface(mesh.path);
+      const QuadrangleSurface surface = read_gmsh_surface(mesh.path, mesh.scale);
       if (!check_groups(table, surface.groups, surface.group_names, structure)) return false;
       mesh.read = std::make_shared<const HexahedralMesh>(fem::shells_on(surface, mesh, structure.parts, planes));
     } else {
-      mesh.read =
-          std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra));
+      mesh.read = std::make_shared<const HexahedralMesh>(
+          read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra, mesh.scale));
       if (!check_groups(table, mesh.read->groups, mesh.read->group_names, structure)) return false;
     }
     for (const std::string& remark : mesh.read->remarks)

@@ -39,11 +39,15 @@ bool Validator::part(const Part& one) {
     if (!find_in_both(inside(base, dimension_), inside(removed, dimension_), window, 0, dimension_))
       complain(node, "subtract",
                path + ".subtract: the shape number " + std::to_string(k) +
-                   " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
+                   " (from 0) does not meet the body, it removes nothing; correct it or leave it out" +
+                   in_millimetres(shape.removed[k], longest(extent, dimension_)));
   }
   const NearDepth within = inside(shape, dimension_);
   if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
-    complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller");
+    std::string hint;
+    for (std::size_t k = 0; k < shape.removed.size() && hint.empty(); ++k)
+      hint = in_millimetres(shape.removed[k], longest(bounds(base, dimension_), dimension_));
+    complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller" + hint);
     return false;
   }
   return true;
