@@ -482,6 +482,8 @@ TEST_F(GmshShells, GroupsAndThicknessAreChecked) {
   expect(found(shell + steel + "supports = [{face = \"rot\"}]\n"),
          "structure.supports.0.face: the mesh has no face 'rot'; its faces are 0, root, flange.bottom");
   expect(found(shell + steel + "wet = [\"flange\"]\n"), "structure.wet: the mesh has no face 'flange'");
+  expect(found("element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\", thickness = 400}\n" + steel),
+         "structure.shape.thickness = 400 [m] is more than the mesh is long");
   const std::string bare = "element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\"}\n" + steel;
   expect(found(bare), "the shells of the group 'flange' have no thickness; give shape.thickness, or a part {group = \"flange\"");
   EXPECT_EQ(found(bare + "parts = [{group = \"web\", thickness = 0.01}, {group = \"flange\", thickness = 0.02}]\n"), "");
