@@ -13,7 +13,10 @@ bool Validator::part(const Part& one) {
   const Bounds extent = bounds(shape, dimension_);
   for (int a = 0; a < dimension_; ++a) {
     if (!(extent.high[a] - extent.low[a] < 1e200)) {
-      complain(node, "shape", path + " has no end along " + "xyz"[a] + "; take a box instead of a slab");
+      complain(
+          node, "shape",
+          path + " has no end along " + "xyz"[a] + "; take a box" +
+              (std::holds_alternative<Slab>(shape.base) ? " instead of a slab" : ", or cut one with it by \"intersection\""));
       return false;
     }
     if (fluid_.symmetry.axis[a] && extent.high[a] <= 0) {
@@ -30,7 +33,8 @@ bool Validator::part(const Part& one) {
     if (thinnest < spacing)
       complain(node, one.spacing ? "spacing" : "shape",
                path + " is " + rounded(thinnest) + " m at its thinnest, less than the spacing " + rounded(spacing) +
-                   " m; make the spacing smaller or the body larger");
+                   " m; make the spacing smaller or the body larger" +
+                   (spacing > longest(extent, dimension_) ? " (is the spacing in mm?)" : ""));
   }
   const Bounds window = common(kept_, extent);
   const Shape base{shape.base, {}};

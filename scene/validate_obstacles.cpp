@@ -121,7 +121,7 @@ void Validator::driven(const Obstacle& one, const Node& node, const std::string&
   const std::vector<std::string> known{"x", "y", "z", "rx", "ry", "rz"};
   for (const std::string& word : one.fixed)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      complain(node, "fixed", path + ".fixed: '" + word + "' is none of " + listed(known) + suggestion(word, known));
+      complain(node, "fixed", path + ".fixed: '" + word + "' is none of " + listed(known));
   const auto held = [&](const std::string& word) {
     return std::find(one.fixed.begin(), one.fixed.end(), word) != one.fixed.end();
   };
