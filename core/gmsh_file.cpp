@@ -781,8 +781,16 @@ QuadrangleSurface parse_gmsh_surface(std::string_view text, const std::string& p
   return Reader(text, path, surface).quadrangle_surface();
 }
 
-HexahedralMesh read_gmsh(const std::string& path, GmshCells cells) { return parse_gmsh(text_of(path), path, cells); }
+HexahedralMesh read_gmsh(const std::string& path, GmshCells cells, double scale) {
+  HexahedralMesh mesh = parse_gmsh(text_of(path), path, cells);
+  for (Vec3& node : mesh.nodes) node *= scale;
+  return mesh;
+}
 
-QuadrangleSurface read_gmsh_surface(const std::string& path) { return parse_gmsh_surface(text_of(path), path); }
+QuadrangleSurface read_gmsh_surface(const std::string& path, double scale) {
+  QuadrangleSurface surface = parse_gmsh_surface(text_of(path), path);
+  for (Vec3& node : surface.nodes) node *= scale;
+  return surface;
+}
 
 }  // namespace undex

@@ -21,12 +21,13 @@ enum class GmshCells { hexahedra, quadrangles };
 /// or repeated tags, other elements than the cells and their faces, numbers out of range, nodes at one place, cells that are
 /// flat, turned inside out or not joined face to face, faces that are not outer ones, two groups of one name, and
 /// of a meridian nodes off its plane or beyond the axis. Nodes within 1e-9 of the mesh's extent are put on plane and axis.
-HexahedralMesh read_gmsh(const std::string& path, GmshCells cells = GmshCells::hexahedra);
-/// The same of the file's text; `path` is for messages.
+/// The file's lengths times `scale` are metres.
+HexahedralMesh read_gmsh(const std::string& path, GmshCells cells = GmshCells::hexahedra, double scale = 1);
+/// The same of the file's text, whose lengths are metres; `path` is for messages.
 HexahedralMesh parse_gmsh(std::string_view text, const std::string& path, GmshCells cells = GmshCells::hexahedra);
 
 /// Quadrangles in space, whose lines name edges. Refuses as read_gmsh does; any number of quadrangles may meet at an edge.
-QuadrangleSurface read_gmsh_surface(const std::string& path);
+QuadrangleSurface read_gmsh_surface(const std::string& path, double scale = 1);
 QuadrangleSurface parse_gmsh_surface(std::string_view text, const std::string& path);
 
 }  // namespace undex

@@ -32,8 +32,8 @@ decltype(&undex_deal_mesh) deal_mesh() {
 HexahedralMesh read_mesh(const GmshMesh& mesh, const Settings& settings, const std::string& who) {
   try {
     if (settings.element == ElementKind::shell && !settings.axisymmetric)
-      return shells_on(read_gmsh_surface(mesh.path), mesh, settings.parts, settings.symmetry_axes);
-    return read_gmsh(mesh.path, settings.axisymmetric ? GmshCells::quadrangles : GmshCells::hexahedra);
+      return shells_on(read_gmsh_surface(mesh.path, mesh.scale), mesh, settings.parts, settings.symmetry_axes);
+    return read_gmsh(mesh.path, settings.axisymmetric ? GmshCells::quadrangles : GmshCells::hexahedra, mesh.scale);
   } catch (const std::invalid_argument& mistake) {
     throw std::invalid_argument(who + ": " + mistake.what());
   }

@@ -70,6 +70,7 @@ struct GmshMesh {
   std::shared_ptr<const HexahedralMesh> read = nullptr;  ///< what the file holds, of shells as a layer; empty: not read yet
   std::optional<double> thickness = {};                  ///< of shells [m], of groups without one of their own
   ShellOffset offset = ShellOffset::mid;
+  double scale = 1;  ///< times the file's lengths makes metres
 };
 using Mesh = std::variant<TubeMesh, PlateMesh, RodMesh, GmshMesh>;
 
@@ -117,6 +118,10 @@ void describe(GmshMesh& mesh, Visit&& visit) {
                     .values = "a .msh file of hexahedra",
                     .meaning = "relative to the scene file; of shells of quadrangles; in an axisymmetric scene of quadrangles: "
                                "the file's x is the distance from the axis of revolution, its y the coordinate along it"});
+  visit(mesh.scale,
+        {.name = "scale",
+         .range = Range::above(0, 1e6),
+         .meaning = "times the file's lengths makes metres: 1e-3 for millimetres (not of `thickness`, which is in m)"});
   visit(mesh.thickness, {.name = "thickness",
                          .unit = "m",
                          .range = Range::length(),

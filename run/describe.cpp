@@ -60,6 +60,7 @@ std::string layers(const scene::Scene& scene, const LineFlow& flow) {
                    material.c_str());
   }
   const auto end = [&](int which) {
+    if (flow.line().radiating[which]) return "radiating, waves leave through it";
     return flow.line().closed[which] ? (which == 0 && flow.line().inner() == 0 ? "the middle or a plane of symmetry" : "rigid")
                                      : "free, nothing beyond it";
   };
@@ -87,7 +88,7 @@ std::string temperature_notes(const scene::Scene& scene) {
 
 /// A scene in space may be one of revolution.
 std::string revolution_note(const scene::Scene& scene) {
-  if (scene.meridian || scene.fluid.dimension != 3) return "";
+  if (scene.meridian || on_a_line(scene.geometry) || scene.fluid.dimension != 3) return "";
   const int axis = scene::likeliest_axis(scene);
   if (!scene::objections(scene, scene::line_along(scene, axis)).empty()) return "";
   return format(

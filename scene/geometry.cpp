@@ -1,6 +1,10 @@
 #include "scene/geometry.hpp"
 
 #include <cmath>
+#include <filesystem>
+
+#include "core/triangle_surface.hpp"
+#include "scene/numbers.hpp"
 
 namespace undex::scene {
 namespace {
@@ -73,6 +77,42 @@ std::optional<Vec3> find_in_both(const NearDepth& first, const NearDepth& second
         }
       }
   return std::nullopt;
+}
+
+double longest(const Bounds& box, int dimension) {
+  double most = 0;
+  for (int a = 0; a < dimension; ++a) most = std::max(most, box.high[a] - box.low[a]);
+  return most;
+}
+
+namespace {
+
+/// The longest of the surfaces from files without a scale in a shape; null: none.
+const Stl* unscaled(const Primitive& shape) {
+  const Stl* found = nullptr;
+  const auto look = [&](const std::vector<Primitive>& parts) {
+    for (const Primitive& part : parts)
+      if (const Stl* stl = unscaled(part); stl && (!found || longest(stl->read->bounds(), 3) > longest(found->read->bounds(), 3)))
+        found = stl;
+  };
+  std::visit(
+      [&]<class Type>(const Type& each) {
+        if constexpr (std::is_same_v<Type, Stl>) found = each.read && each.scale == 1 ? &each : nullptr;
+        else if constexpr (std::is_same_v<Type, Placed>) look(each.shape);
+        else if constexpr (requires { each.shapes; }) look(each.shapes);
+      },
+      shape);
+  return found;
+}
+
+}  // namespace
+
+std::string in_millimetres(const Primitive& shape, double usual) {
+  const Stl* stl = unscaled(shape);
+  const double size = stl ? longest(stl->read->bounds(), 3) : 0.0;
+  if (!(size > usual)) return "";
+  return "; '" + std::filesystem::path(stl->file).filename().string() + "' is " + rounded(size) +
+         " m long: is it in millimetres? Then write scale = 1e-3";
 }
 
 }  // namespace undex::scene

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "core/shapes.hpp"
 
@@ -27,6 +28,15 @@ std::optional<Vec3> find_in_both(const NearDepth& a, const NearDepth& b, const B
 
 /// The common part of two boxes.
 Bounds common(const Bounds& a, const Bounds& b);
+
+/// The longest edge of a box [m].
+double longest(const Bounds& box, int dimension);
+
+/// Of obstacles: what is longer than so many times all bodies of fluid together is in other units.
+inline constexpr double most_lengths_of_water = 10;
+
+/// "; ...": asks whether a file of the shape is in millimetres, where it has no scale and is longer than `usual` [m]; else empty.
+std::string in_millimetres(const Primitive& shape, double usual);
 
 /// The part of space that is computed: x[axis] >= 0 where there is a symmetry plane.
 Bounds kept_part(const std::array<bool, 3>& symmetric);

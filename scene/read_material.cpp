@@ -33,9 +33,12 @@ const Node* own_material(const Draft& draft, const std::string& name) {
 
 void unknown_material(const Node& node, const std::string& path, const std::string& name, const char* other_kind,
                       const std::vector<std::string>& known, Report& report) {
-  report.add(node, other_kind ? path + ": '" + name + "' is " + other_kind + "; known here: " + listed(known)
-                              : path + ": unknown material '" + name + "'" + suggestion(name, known) +
-                                    " ('undex materials' lists them)");
+  const std::string near = nearest(name, known);
+  const std::string remedy = other_kind     ? "; take one that is"
+                             : near.empty() ? "; the names most like it: " + listed(nearest_few(name, known))
+                                            : "; did you mean '" + near + "'?";
+  report.add(node, path + ": " + (other_kind ? "'" + name + "' is " + other_kind : "unknown material '" + name + "'") + remedy +
+                       " ('undex materials' lists them)");
 }
 
 /// Warns of a set of the library that is not to be relied on.

@@ -58,10 +58,15 @@ void read_obstacles(Draft& draft) {
     draft.obstacle_nodes.push_back(nodes[i]);
     draft.obstacle_good.push_back(good);
   }
-  // Also those that walls of any shape have become.
+  Bounds water;
+  for (std::size_t b = 0; b < scene.fluid.bodies.size(); ++b)
+    if (draft.body_shape_good[b]) water.include(bounds(scene.fluid.bodies[b].shape, top.dimension()));
+  const double most = water.empty() ? 0.0 : most_lengths_of_water * longest(water, top.dimension());
+  // Also those that walls of any shape have become, and none that is in other units (validate_obstacles.cpp).
   for (std::size_t i = 0; i < scene.obstacles.size() && draft.dimension_good; ++i) {
     if (!draft.obstacle_good[i]) continue;
     const Primitive& shape = scene.obstacles[i].shape;
+    if (longest(bounds(shape, top.dimension()), top.dimension()) > most) continue;
     for (std::size_t b = 0; b < scene.fluid.bodies.size(); ++b)
       if (draft.body_shape_good[b] && !leaves_room(scene.fluid.bodies[b].shape, shape, scene))
         scene.fluid.bodies[b].shape.removed.push_back(shape);

@@ -5,6 +5,7 @@
 #include "core/gmsh_file.hpp"
 #include "scene/draft.hpp"
 #include "scene/faces.hpp"
+#include "scene/geometry.hpp"
 #include "scene/numbers.hpp"
 #include "scene/record_reader.hpp"
 #include "scene/structure_shape.hpp"
@@ -80,12 +81,27 @@ bool find_file(const TableReader& table, const TableReader& shape, Draft& draft,
     for (int a = 0; a < 3; ++a)
       if (draft.scene.fluid.symmetry.axis[a]) planes.push_back(a);
     if (shell) {
-      const QuadrangleSurface surface = read_gmsh_surface(mesh.path);
+      const QuadrangleSurface surface = read_gmsh_surface(mesh.path, mesh.scale);
       if (!check_groups(table, surface.groups, surface.group_names, structure)) return false;
+      Bounds extent;
+      for (const Vec3& node : surface.nodes) extent.include(node);
+      const double size = longest(extent, 3);
+      const auto thin = [&](const TableReader& of, const std::optional<double>& thickness) {
+        if (!thickness || *thickness <= size) return;
+        of.complain("thickness", of.path_of("thickness") + " = " + shortest(*thickness) + " [m] is more than the mesh is long, " +
+                                     rounded(size) + " m: is it in mm? Then write \"" + shortest(*thickness) + " mm\"");
+      };
+      const std::size_t before = table.report().size();
+      thin(shape, mesh.thickness);
+      const auto parts = table.tables("parts");
+      for (std::size_t p = 0; p < structure.parts.size(); ++p)
+        thin(TableReader(*parts[p], table.path_of("parts") + '.' + std::to_string(p), "parts", 3, table.report()),
+             structure.parts[p].thickness);
+      if (table.report().size() > before) return false;
       mesh.read = std::make_shared<const HexahedralMesh>(fem::shells_on(surface, mesh, structure.parts, planes));
     } else {
-      mesh.read =
-          std::make_shared<const HexahedralMesh>(read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra));
+      mesh.read = std::make_shared<const HexahedralMesh>(
+          read_gmsh(mesh.path, meridian ? GmshCells::quadrangles : GmshCells::hexahedra, mesh.scale));
       if (!check_groups(table, mesh.read->groups, mesh.read->group_names, structure)) return false;
     }
     for (const std::string& remark : mesh.read->remarks)

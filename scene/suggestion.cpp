@@ -37,7 +37,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   const std::string* best = nullptr;
   std::size_t fewest = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
   for (const std::string& candidate : candidates)
-    if (const std::size_t n = edits(word, candidate); n < fewest) {
+    // One letter for another is no mistake of spelling.
+    if (const std::size_t n = edits(word, candidate); n < (std::min(word.size(), candidate.size()) < 2 ? 1 : fewest)) {
       fewest = n;
       best = &candidate;
     }
@@ -51,6 +52,17 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (const std::string near = nearest(word, candidates); !near.empty()) return "; did you mean '" + near + "'?";
   return candidates.empty() ? "" : "; known: " + listed(candidates);
+}
+
+std::vector<std::string> nearest_few(std::string_view word, std::vector<std::string> candidates) {
+  constexpr std::size_t few = 5;
+  const std::string_view begin = word.substr(0, 64);
+  std::stable_sort(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
+    const auto rank = [&](const std::string& name) { return std::pair(!contains(name, begin), edits(begin, name)); };
+    return rank(a) < rank(b);
+  });
+  candidates.resize(std::min(few, candidates.size()));
+  return candidates;
 }
 
 std::string listed(const std::vector<std::string>& words) {

@@ -14,6 +14,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b, c".
+/// The few of the candidates that are the most like the word.
+std::vector<std::string> nearest_few(std::string_view word, std::vector<std::string> candidates);
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace undex::scene

@@ -13,7 +13,10 @@ bool Validator::part(const Part& one) {
   const Bounds extent = bounds(shape, dimension_);
   for (int a = 0; a < dimension_; ++a) {
     if (!(extent.high[a] - extent.low[a] < 1e200)) {
-      complain(node, "shape", path + " has no end along " + "xyz"[a] + "; take a box instead of a slab");
+      complain(
+          node, "shape",
+          path + " has no end along " + "xyz"[a] + "; take a box" +
+              (std::holds_alternative<Slab>(shape.base) ? " instead of a slab" : ", or cut one with it by \"intersection\""));
       return false;
     }
     if (fluid_.symmetry.axis[a] && extent.high[a] <= 0) {
@@ -30,7 +33,8 @@ bool Validator::part(const Part& one) {
     if (thinnest < spacing)
       complain(node, one.spacing ? "spacing" : "shape",
                path + " is " + rounded(thinnest) + " m at its thinnest, less than the spacing " + rounded(spacing) +
-                   " m; make the spacing smaller or the body larger");
+                   " m; make the spacing smaller or the body larger" +
+                   (spacing > longest(extent, dimension_) ? " (is the spacing in mm?)" : ""));
   }
   const Bounds window = common(kept_, extent);
   const Shape base{shape.base, {}};
@@ -39,11 +43,15 @@ bool Validator::part(const Part& one) {
     if (!find_in_both(inside(base, dimension_), inside(removed, dimension_), window, 0, dimension_))
       complain(node, "subtract",
                path + ".subtract: the shape number " + std::to_string(k) +
-                   " (from 0) does not meet the body, it removes nothing; correct it or leave it out");
+                   " (from 0) does not meet the body, it removes nothing; correct it or leave it out" +
+                   in_millimetres(shape.removed[k], longest(extent, dimension_)));
   }
   const NearDepth within = inside(shape, dimension_);
   if (!shape.removed.empty() && !find_in_both(within, within, window, 0, dimension_)) {
-    complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller");
+    std::string hint;
+    for (std::size_t k = 0; k < shape.removed.size() && hint.empty(); ++k)
+      hint = in_millimetres(shape.removed[k], longest(bounds(base, dimension_), dimension_));
+    complain(node, "subtract", path + ": its subtractions leave nothing of it; make them smaller" + hint);
     return false;
   }
   return true;

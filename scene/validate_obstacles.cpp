@@ -50,17 +50,14 @@ bool Validator::has_size_of_water(const Obstacle& one, const Node& node) {
     if (usable_[i]) water.include(bounds(fluid_.bodies[i].shape, dimension_));
   if (water.empty()) return true;
   const Bounds extent = bounds(one.shape, dimension_);
-  const auto longest = [&](const Bounds& box) {
-    double most = 0;
-    for (int a = 0; a < dimension_; ++a) most = std::max(most, box.high[a] - box.low[a]);
-    return most;
-  };
-  constexpr double most_times = 10;
-  if (longest(extent) <= most_times * longest(water)) return true;
+  const double size = longest(extent, dimension_), of_water = longest(water, dimension_);
+  if (size <= most_lengths_of_water * of_water) return true;
+  std::string remedy = in_millimetres(one.shape, of_water);
+  if (remedy.empty()) remedy = ": is it in millimetres?";
   complain(node, "shape",
-           path_of(one) + " is " + rounded(longest(extent)) + " m long, " +
-               rounded(std::round(longest(extent) / longest(water))) +
-               " times as long as all bodies of fluid together: is it in millimetres? Else cut it where the water cannot get to");
+           path_of(one) + " is " + rounded(size) + " m long, " + rounded(std::round(size / of_water)) +
+               " times as long as all bodies of fluid together" + remedy + (remedy.ends_with('?') ? "" : ".") +
+               " Else cut it where the water cannot get to");
   return false;
 }
 
@@ -124,7 +121,7 @@ void Validator::driven(const Obstacle& one, const Node& node, const std::string&
   const std::vector<std::string> known{"x", "y", "z", "rx", "ry", "rz"};
   for (const std::string& word : one.fixed)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      complain(node, "fixed", path + ".fixed: '" + word + "' is none of " + listed(known) + suggestion(word, known));
+      complain(node, "fixed", path + ".fixed: '" + word + "' is none of " + listed(known));
   const auto held = [&](const std::string& word) {
     return std::find(one.fixed.begin(), one.fixed.end(), word) != one.fixed.end();
   };

@@ -10,12 +10,6 @@ constexpr double most_times = 100;
 /// Particles are numbered in 32 bits; a lattice of more points than this takes minutes to walk through.
 constexpr double most_particles = 2e9, most_walked = 1e10;
 
-double largest(const Bounds& extent, int dimension) {
-  double most = 0;
-  for (int a = 0; a < dimension; ++a) most = std::max(most, extent.high[a] - extent.low[a]);
-  return most;
-}
-
 double box_volume(const Bounds& box, int dimension) {
   double product = 1;
   for (int a = 0; a < dimension; ++a) product *= std::max(0.0, box.high[a] - box.low[a]);
@@ -32,7 +26,7 @@ void Validator::sizes() {
       all.include(extent.low);
       all.include(extent.high);
     }
-  const double of_bodies = parts_.empty() || all.empty() ? 0.0 : largest(all, dimension_);
+  const double of_bodies = parts_.empty() || all.empty() ? 0.0 : longest(all, dimension_);
   if (dimension_ == 3)
     for (const Structure& each : structures_) size_of(each, of_bodies);
   if (of_bodies > 0) size_of_walls(of_bodies);
@@ -42,18 +36,19 @@ void Validator::sizes() {
 void Validator::size_of(const Structure& one, double of_bodies) {
   if (!one.shape) return;
   const Node& node = *one.node;
-  const double size = largest(one.shape->extent(), 3);
+  const double size = longest(one.shape->extent(), 3);
+  const auto* gmsh = std::get_if<fem::GmshMesh>(&one.settings->mesh);
+  const std::string remedy = gmsh && gmsh->scale == 1 ? "Then write scale = 1e-3" : "Lengths are in m";
   if (of_bodies > 0 && size > most_times * of_bodies)
     complain(node, "shape",
              one.path + ".shape is " + rounded(size) + " m long, " + rounded(std::round(size / of_bodies)) +
-                 " times as long as all bodies together (" + rounded(of_bodies) +
-                 " m): is the mesh in millimetres? Lengths are in m");
+                 " times as long as all bodies together (" + rounded(of_bodies) + " m): is the mesh in millimetres? " + remedy);
   else if (of_bodies > 0 && draft_.spacing_good && size < fluid_.lattice.spacing)
     complain(node, "shape",
              one.path + ".shape is " + rounded(size) + " m long, less than the spacing " + rounded(fluid_.lattice.spacing) +
                  " m of the water: is it in other units than m? Else make the spacing smaller");
   else if (of_bodies == 0 && size > 200)
-    warn(node, "shape", one.path + ".shape is " + rounded(size) + " m long: is the mesh in millimetres? Lengths are in m");
+    warn(node, "shape", one.path + ".shape is " + rounded(size) + " m long: is the mesh in millimetres? " + remedy);
 }
 
 void Validator::size_of_walls(double of_bodies) {
@@ -62,7 +57,7 @@ void Validator::size_of_walls(double of_bodies) {
     if (!draft_.wall_shape_good[w]) continue;
     const sph::Wall& wall = fluid_.walls[w];
     const Bounds extent = bounds(wall.container, dimension_);
-    const double size = largest(extent, dimension_);
+    const double size = longest(extent, dimension_);
     if (size > most_times * of_bodies)
       complain(*draft_.wall_nodes[w], "shape",
                "walls." + wall.name + " is " + rounded(size) + " m long, " + rounded(std::round(size / of_bodies)) +
@@ -97,7 +92,8 @@ void Validator::counts() {
     complain(one.spacing || !resolution ? *one.node : *resolution, "spacing",
              one.path() + " would get " + rounded(particles) + " particles of spacing " + rounded(spacing) + " m, more than " +
                  rounded(most_particles) + "; take a larger spacing: " +
-                 rounded(std::pow(volume(shape, window, dimension) / most_particles, 1.0 / dimension)) + " m at least");
+                 rounded(std::pow(volume(shape, window, dimension) / most_particles, 1.0 / dimension)) + " m at least" +
+                 in_millimetres(one.shape->base, 0));
   }
 }
 

@@ -18,10 +18,8 @@ void Validator::structure(const Structure& one) {
   const bool fluid = !fluid_.bodies.empty();
   if (fluid && one.settings->wet_faces.empty())
     complain(node, "wet",
-             one.path +
-                 ".wet is empty, so the water does not see the structure; name the faces that it touches, "
-                 "e.g. wet = [\"" +
-                 (shape && shape->mesh() ? shape->faces(fluid_.symmetry.axis).back() : std::string("inner")) + "\"]");
+             one.path + ".wet is empty, so the water does not see the structure; name the faces that it touches" +
+                 (shape ? faces_at_water(*shape) : std::string()));
   if (draft_.body_nodes.empty() && !one.settings->wet_faces.empty())
     complain(node, "wet", one.path + ".wet names faces, but the scene has no [[bodies]]; add the water or leave out wet");
   if (fluid && shape && draft_.spacing_good && all_usable())
@@ -29,6 +27,26 @@ void Validator::structure(const Structure& one) {
       wet_face(one.path, node, shape->face_points(face), face);
       faces_water(one, face);
     }
+}
+
+/// ", e.g. ...": the faces that lie at the water for the most part, or all that there are.
+std::string Validator::faces_at_water(const StructureShape& shape) const {
+  const std::vector<std::string> all = shape.faces(fluid_.symmetry.axis);
+  std::string near_water;
+  for (const std::string& face : all) {
+    const std::vector<Vec3> points = shape.face_points(face);
+    if (!draft_.spacing_good || !all_usable()) continue;
+    // A face that meets the water at an edge alone is beside it.
+    std::size_t kept = 0, wet = 0;
+    for (const Vec3& x : points) {
+      if (!in_kept_part(x)) continue;
+      ++kept;
+      if (distance_to_water(x) < 0.5 * fluid_.lattice.spacing) ++wet;
+    }
+    const bool touches = 2 * wet > kept;
+    if (touches) near_water += (near_water.empty() ? "" : ", ") + quoted(face);
+  }
+  return near_water.empty() ? "; its faces are " + listed(all) : ", e.g. wet = [" + near_water + "]";
 }
 
 /// Has a wet face its water behind it, on the other side of a thin wall?

@@ -84,6 +84,7 @@ class Validator {
   // validate_structure.cpp
   void structures();
   void structure(const Structure& one);
+  std::string faces_at_water(const StructureShape& shape) const;
   void faces_water(const Structure& one, const std::string& face);
   void apart(const Structure& first, const Structure& later);
   void pieces(const Structure& one);

@@ -19,6 +19,24 @@ TEST(Describe, SaysWhoseTemperatureDoesNotKnowOfShocks) {
   EXPECT_EQ(text_of("\"al-2024-t351\"").find(linear), std::string::npos);
 }
 
+/// One coordinate has no need of a meridian, and its ends are called what they are.
+TEST(Describe, SaysHowALineEnds) {
+  const std::string text = describe(test::read_text(R"(end_time = 1e-6
+dimension = "spherical"
+[[bodies]]
+name = "water"
+shape = {type = "sphere", radius = 0.2}
+material = "water-tait"
+pressure = 1e5
+[[walls]]
+name = "far"
+shape = {type = "sphere", radius = 0.2}
+condition = "radiating"
+)"));
+  EXPECT_NE(text.find("outer end: radiating"), std::string::npos) << text;
+  EXPECT_EQ(text.find("dimension=axisymmetric"), std::string::npos) << text;
+}
+
 /// What settling costs is part of what a run costs, and it is told on the way.
 TEST(Describe, CountsTheSettlingOfAStart) {
   const scene::Scene scene = test::read_text(R"(end_time = 1e-6

@@ -95,7 +95,9 @@ TEST(Geometry, StructureThatTouchesNoWater) {
   expect(with(coupled_tube, "radius = 0.044, low", "radius = 0.03, low"),
          "25:7: structure.wet: the face 'inner' touches no water: no body comes within two spacings (0.004 m) of it");
   EXPECT_EQ(mistakes(with(coupled_tube, "radius = 0.044, low", "radius = 0.042, low")), "");
-  expect(with(coupled_tube, "wet = [\"inner\"]\n", ""), "21:1: structure.wet is empty, so the water does not see the structure");
+  expect(with(coupled_tube, "wet = [\"inner\"]\n", ""),
+         "21:1: structure.wet is empty, so the water does not see the structure; name the faces that it touches, e.g. wet = "
+         "[\"inner\"]");
 }
 
 TEST(Geometry, StructureThatSymmetryDoesNotHalve) {

@@ -1,6 +1,8 @@
 // Each kind of mistake in a key: place, words and remedy; all of them at once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scratch.hpp"
 
 namespace {
@@ -103,7 +105,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
       {"inside out", with(coupled_tube, "inner_radius = 0.044", "inner_radius = 0.06"),
        "22:61: structure.shape.outer_radius = 0.05 must be greater than inner_radius = 0.06\n"},
       {"solid as a fluid", with(coupled_tube, "\"water-tait\"", "\"al-6061-t6\""),
-       "18:12: bodies.water.material: 'al-6061-t6' is a solid, not a fluid; known here: "},
+       "18:12: bodies.water.material: 'al-6061-t6' is a solid, not a fluid; take one that is"},
       {"unattainable pressure", with(coupled_tube, "pressure = 1e5", "pressure = -1e9"),
        "19:12: bodies.water.pressure = -1e+09 Pa: "},
       {"energy of a barotropic law", with(coupled_tube, "pressure = 1e5", "energy = 1e5"),
@@ -328,6 +330,21 @@ TEST(Mistakes, OfSolids) {
     EXPECT_NE(found.find(each.expected), std::string::npos) << each.what << " gave:\n" << found << "expected:\n" << each.expected;
   }
   EXPECT_EQ(mistakes(alone + "{base = \"al-5086-za\", damage = " + damage + ", T_melt = 893}, spall = {strength = 1e9}}\n"), "");
+}
+
+TEST(Mistakes, SuggestionsArePlausible) {
+  const auto of = [](const std::string& scene) { return mistakes(scene); };
+  const std::string unknown = of(with(coupled_tube, "\"petn\"", "\"semtex-plastic\""));
+  EXPECT_NE(unknown.find("unknown material 'semtex-plastic'; the names most like it: "), std::string::npos) << unknown;
+  EXPECT_LT(std::count(unknown.begin(), unknown.end(), ','), 6) << unknown;
+  const std::string steel = of(with(coupled_tube, "\"al-5083-h116\"", "\"steel\""));
+  EXPECT_NE(steel.find("did you mean"), std::string::npos) << steel;
+  EXPECT_EQ(of(with(two_gases, "energy = 2.5", "w = 2.5")).find("did you mean"), std::string::npos);
+  const std::string half = of(with(two_gases, "{type = \"box\", low = 0, high = 0.5}", "{type = \"half_space\", normal = 1}"));
+  EXPECT_EQ(half.find("slab"), std::string::npos) << half;
+  EXPECT_NE(half.find("has no end along x; take a box, or cut one with it by \"intersection\""), std::string::npos) << half;
+  const std::string coarse = of(with(two_gases, "spacing = 0.01", "spacing = 10"));
+  EXPECT_NE(coarse.find("is the spacing in mm?"), std::string::npos) << coarse;
 }
 
 TEST(Mistakes, OfAMass) {

@@ -352,7 +352,8 @@ shape = {type = "box", low = [0.51, 0], high = [1, 0.5]}
 /// Two cubes of a metre from a file, beside water.
 class GmshScene : public ::testing::Test {
  protected:
-  std::string found(const std::string& low_of_water, const std::string& point = "[0.5, 0.5, 0.5]") {
+  std::string found(const std::string& low_of_water, const std::string& point = "[0.5, 0.5, 0.5]",
+                    const std::string& of_shape = "") {
     std::ifstream file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh");
     std::ostringstream mesh;
     mesh << file.rdbuf();
@@ -365,7 +366,7 @@ name = "water"
 shape = {type = "box", low = [LOW, 0, 0], high = [4, 1, 1]}
 material = "water-tait"
 [structure]
-shape = {type = "gmsh", path = "cubes.msh"}
+shape = {type = "gmsh", path = "cubes.msh"MORE}
 material = "steel-4340"
 wet = ["8"]
 [[probes]]
@@ -375,7 +376,8 @@ point = POINT
 )";
     try {
       std::string all;
-      for (const std::string& warning : read(scratch_.write(with(with(text, "LOW", low_of_water), "POINT", point))).warnings)
+      for (const std::string& warning :
+           read(scratch_.write(with(with(with(text, "LOW", low_of_water), "POINT", point), "MORE", of_shape))).warnings)
         all += "warning: " + warning;
       return all;
     } catch (const std::exception& error) {
@@ -397,6 +399,31 @@ TEST_F(GmshScene, GetsTheChecksOfBuiltInShapes) {
   expect(found("2.15"), "the water begins 0.15 m from the face '8', more than a spacing (0.1 m)");
   expect(found("1.8"), "bodies.water overlaps the structure, e.g. at [");
   expect(found("2", "[0.5, 0.5, 1.4]"), "probes.p.point is 0.4 m away from the structure; move it onto it");
+}
+
+/// The cubes end at x = 2 m.
+TEST_F(GmshScene, LengthsMayBeScaled) {
+  EXPECT_EQ(found("1", "[0.25, 0.25, 0.25]", ", scale = 0.5"), "");
+  const std::string resolved = to_toml(read(scratch_.folder() / "case.toml"));
+  EXPECT_NE(resolved.find("scale = 0.5"), std::string::npos);
+  EXPECT_EQ(to_toml(read(scratch_.write(resolved, "resolved.toml"))), resolved);
+  expect(found("2", "[0.25, 0.25, 0.25]", ", scale = 0.5"), "touches no water");
+  for (const char* wrong : {"0", "-1", "1e7", "\"1 mm\"", "true"})
+    expect(found("2", "[0.5, 0.5, 0.5]", std::string(", scale = ") + wrong), "structure.shape.scale");
+  expect(found("2", "[0.5, 0.5, 0.5]", ", scale = 1000"),
+         "times as long as all bodies together (2 m): is the mesh in millimetres? Lengths are in m");
+  std::ifstream file(std::string(UNDEX_ROOT) + "/tests/unit/scene/cubes.msh");
+  bool nodes = false;
+  for (std::string line; std::getline(file, line);) {
+    nodes = line == "12" || (nodes && line != "$EndNodes");
+    double number = 0, x = 0, y = 0, z = 0;
+    if (std::istringstream words(line); nodes && words >> number >> x >> y >> z)
+      line = std::to_string(int(number)) + ' ' + std::to_string(1e3 * x) + ' ' + std::to_string(1e3 * y) + ' ' +
+             std::to_string(1e3 * z);
+    mesh_ += line + '\n';
+  }
+  expect(found("2"), "times as long as all bodies together (2 m): is the mesh in millimetres? Then write scale = 1e-3");
+  EXPECT_EQ(found("2", "[0.5, 0.5, 0.5]", ", scale = 1e-3"), "");
 }
 
 TEST_F(GmshScene, PiecesThatShareNoNodeAreSaid) {
@@ -455,6 +482,8 @@ TEST_F(GmshShells, GroupsAndThicknessAreChecked) {
   expect(found(shell + steel + "supports = [{face = \"rot\"}]\n"),
          "structure.supports.0.face: the mesh has no face 'rot'; its faces are 0, root, flange.bottom");
   expect(found(shell + steel + "wet = [\"flange\"]\n"), "structure.wet: the mesh has no face 'flange'");
+  expect(found("element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\", thickness = 400}\n" + steel),
+         "structure.shape.thickness = 400 [m] is more than the mesh is long");
   const std::string bare = "element = \"shell\"\nshape = {type = \"gmsh\", path = \"TEE\"}\n" + steel;
   expect(found(bare), "the shells of the group 'flange' have no thickness; give shape.thickness, or a part {group = \"flange\"");
   EXPECT_EQ(found(bare + "parts = [{group = \"web\", thickness = 0.01}, {group = \"flange\", thickness = 0.02}]\n"), "");

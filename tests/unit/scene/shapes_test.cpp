@@ -108,5 +108,29 @@ TEST(Shapes, MistakesHaveRemedies) {
   }
 }
 
+/// 300 units long, in water of 0.4 m: a file in millimetres that is taken for metres, wherever it stands.
+TEST(Shapes, FilesInMillimetresAreTold) {
+  const Scratch scratch;
+  const std::string stl = "{type = \"stl\", file = \"" + scratch.write(tetrahedron, "hull.stl").string() + "\"", bare = stl + "}",
+                    scaled = stl + ", scale = 1e-3}", away = stl + ", move = [0, 0, 1000]}";
+  const std::string water = body("{type = \"box\", low = [0, 0, 0], high = [0.4, 0.4, 0.4]}");
+  const auto in = [](const std::string& list, const std::string& name, const std::string& shape) {
+    return "[[" + list + "]]\nname = \"" + name + "\"\nshape = " + shape + "\n";
+  };
+  const std::string asked = "'hull.stl' is 300 m long: is it in millimetres? Then write scale = 1e-3";
+  for (const std::string& scene :
+       {water + in("obstacles", "hull", bare), water + in("obstacles", "hull", away), water + in("walls", "hull", bare),
+        water + "subtract = [" + bare + "]\n", water + "subtract = [" + away + "]\n",
+        water + "subtract = [{type = \"union\", shapes = [" + bare + "]}]\n", body(bare),
+        water + "subtract = [\"hull\"]\n" + in("solids", "hull", bare) + "material = \"al-6061-t6\"\n"}) {
+    const std::string found = mistakes(scene);
+    EXPECT_NE(found.find(asked), std::string::npos) << scene << "gave:\n" << found;
+  }
+  EXPECT_EQ(mistakes(water + in("obstacles", "hull", scaled)), "");
+  EXPECT_EQ(mistakes(body(scaled)), "");
+  const std::string drawn = stl + ", scale = 2}";  // who gives a scale has thought of it
+  EXPECT_EQ(mistakes(water + "subtract = [" + drawn + "]\n").find("millimetres"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace undex::scene::test
