@@ -67,9 +67,9 @@ def panel(scene, *extremes):
 
 
 # In double precision, for a free body's momentum: in mixed it is exchanged to the rounding of single numbers. Settling costs more than the run.
-CAPPED_CYLINDER = Case("capped_cylinder", 60 * US, {"resolution.spacing": 0.02, "start.kind": "spherical", "scheme.precision": "full",
+CAPPED_CYLINDER = Case("capped_cylinder", 180 * US, {"resolution.spacing": 0.02, "start.kind": "spherical", "scheme.precision": "full",
                         "resolution.settle": "false"},
-                       fields=[60e-6], interface=INTERFACE_COARSE,
+                       fields=[180e-6], interface=INTERFACE_COARSE,
                        extremes=["near.displacement_x", "near.velocity_x", "cap.displacement_z", "wet_near.pressure"])
 
 
