@@ -57,5 +57,6 @@ def pairs(values):
 def write_all(script, meshes):
     """Meshes by name, into the folder that the command line names, or else that of the script."""
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(script).resolve().parent
+    folder.mkdir(parents=True, exist_ok=True)
     for name, mesh in meshes.items():
         mesh.write(folder / name)

@@ -402,7 +402,7 @@ class RunStart {
 
   /// Has a wave passed a radiating face at which the body ends?
   bool has_left(const sph::Body& body, const ParticleState& state) const {
-    const Primitive exits = scene::with_radiating_faces_only(body.shape.base, scene_.fluid.walls);
+    const Primitive exits = scene::with_radiating_faces_only(body.shape.base, scene_.fluid);
     return state.clearance([&](const Vec3& x) { return -signed_distance(exits, x, scene_.fluid.dimension); }) < 0.0;
   }
 
@@ -414,7 +414,7 @@ class RunStart {
                                           "' has moved, and this scene has no body of that name; add it");
     std::vector<Shape> covered;  // and what lies beyond radiating faces
     for (const sph::Body& body : scene_.fluid.bodies)
-      covered.push_back({scene::without_radiating_faces(body.shape.base, scene_.fluid.walls), body.shape.removed});
+      covered.push_back({scene::without_radiating_faces(body.shape.base, scene_.fluid), body.shape.removed});
     const double beyond = -state.clearance([&](const Vec3& x) {
       double away = 1e300;
       for (const Shape& shape : covered) away = std::min(away, signed_distance(shape, x, scene_.fluid.dimension));

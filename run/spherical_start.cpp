@@ -44,7 +44,7 @@ bool same_sphere(const Primitive& shape, const Sphere& sphere) {
 
 /// Distance from the charge's center to the nearest place where the flow stops being spherical: none at radiating faces.
 double obstacle_distance(const scene::Scene& scene, const sph::Body& charge, const sph::Body& medium, const Sphere& sphere) {
-  double distance = -signed_distance(scene::without_radiating_faces(medium.shape.base, scene.fluid.walls), sphere.center, 3);
+  double distance = -signed_distance(scene::without_radiating_faces(medium.shape.base, scene.fluid), sphere.center, 3);
   for (const Primitive& hole : medium.shape.removed)
     if (!same_sphere(hole, sphere)) distance = std::min(distance, signed_distance(hole, sphere.center, 3));
   for (const sph::Body& body : scene.fluid.bodies)
@@ -82,13 +82,12 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
   if (body.burn && !body.burn->instantaneous && body.burn->origin != sphere.center)
     refuse(scene, "'" + body.name + "' must burn from its center");
   const sph::Body& around = scene.fluid.bodies[medium];
-  Charge charge{
-      .body = index,
-      .sphere = sphere,
-      .share = share.value(),
-      .obstacle = obstacle_distance(scene, body, around, sphere),
-      .exit = -signed_distance(scene::with_radiating_faces_only(around.shape.base, scene.fluid.walls), sphere.center, 3),
-      .last_front = 0};
+  Charge charge{.body = index,
+                .sphere = sphere,
+                .share = share.value(),
+                .obstacle = obstacle_distance(scene, body, around, sphere),
+                .exit = -signed_distance(scene::with_radiating_faces_only(around.shape.base, scene.fluid), sphere.center, 3),
+                .last_front = 0};
   const auto last_front = [&](double way) { return way - reach - scene.fluid.lattice.spacing; };
   charge.last_front = last_front(charge.way());
   if (last_front(std::min(charge.obstacle, charge.exit)) <= sphere.radius)
@@ -165,6 +164,24 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
       return std::string(text);
     });
   }
+}
+
+/// A gas that fills few spacings when the particles take over keeps too small a bubble.
+void warn_of_coarse_gas(scene::Scene& scene, const Charge& charge, std::size_t medium) {
+  constexpr double least = 4;  // spacings: docs/accuracy.md, "The bubble behind a spherical start"
+  const auto spacing_of = [&](std::size_t body) {
+    return scene.fluid.bodies[body].spacing.value_or(scene.fluid.lattice.spacing);
+  };
+  const double spacings = charge.radius() / std::max(spacing_of(charge.body), spacing_of(medium));
+  if (spacings >= least) return;
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "bodies.%s: its gas has a radius of %.2g spacings when the particles take over, and its bubble stays too small "
+      "(five spacings: a fifth of the volume is missing, two or three: a third or more); take a spacing of %.2g m or less, "
+      "or a later start",
+      scene.fluid.bodies[charge.body].name.c_str(), spacings, charge.radius() / least);
+  scene.warnings.push_back(text);
 }
 
 }  // namespace
@@ -250,6 +267,7 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
     if (charges.size() > 1 && flow.front() <= charge.sphere.radius)
       refuse(scene, "the waves of two charges meet before '" + name + "' has burned; take start.kind = \"plain\"");
     const double radius = charge.radius();
+    warn_of_coarse_gas(scene, charge, medium);
     for (const std::size_t index : {charge.body, medium})
       if (const auto& spacing = fluid.bodies[index].spacing; spacing && *spacing > radius)
         refuse(scene, "the spacing of '" + fluid.bodies[index].name + "' exceeds the charge");

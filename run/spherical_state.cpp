@@ -60,7 +60,7 @@ bool is_layer(const sph::Body& body, const Part& part) {
 
 /// Has the wave passed a radiating face at which the body ends?
 bool has_left(const sph::Body& body, const Part& part, const scene::Scene& scene) {
-  return part.front > -signed_distance(scene::with_radiating_faces_only(body.shape.base, scene.fluid.walls), part.center, 3);
+  return part.front > -signed_distance(scene::with_radiating_faces_only(body.shape.base, scene.fluid), part.center, 3);
 }
 
 /// Of what the scene keeps of a body at rest with that density [kg].

@@ -19,7 +19,7 @@ void add_of(const scene::Scene& scene, const scene::Scene& other, const std::str
             std::vector<Undisturbed>& found) {
   const int dimension = scene.fluid.dimension;
   const auto surface = [&](const std::string& name, const Primitive& shape) {
-    const Primitive kept = is_donor ? shape : scene::without_radiating_faces(shape, scene.fluid.walls);
+    const Primitive kept = is_donor ? shape : scene::without_radiating_faces(shape, scene.fluid);
     if (signed_distance(kept, middle(shape, dimension), dimension) > -0.5 * scene::endless)
       found.push_back({name + whose, [=](const Vec3& x) { return std::abs(signed_distance(kept, x, dimension)); }});
   };

@@ -50,16 +50,23 @@ std::vector<std::string> faces_of(const Primitive& shape) {
   return {};
 }
 
-Primitive opened_where(const Primitive& shape, const std::vector<sph::Wall>& walls, bool radiating) {
+/// Does a face lie on a symmetry plane?
+bool is_cut(const Primitive& shape, const std::string& face, const std::array<bool, 3>& symmetric) {
+  const auto plane = plane_of(shape, face);
+  return plane && symmetric[std::size_t(plane->axis)] && plane->at == 0.0;
+}
+
+Primitive opened_where(const Primitive& shape, const sph::Settings& fluid, bool radiating) {
   if (faces_of(shape).empty()) return radiating ? shape : Primitive(Sphere{Vec3::Zero(), endless});
   const auto radiates = [&](const std::string& face) {
-    return std::any_of(walls.begin(), walls.end(), [&](const sph::Wall& wall) {
+    return std::any_of(fluid.walls.begin(), fluid.walls.end(), [&](const sph::Wall& wall) {
       return std::any_of(wall.faces.begin(), wall.faces.end(), [&](const auto& of_wall) {
         return of_wall.second == sph::FaceCondition::radiating && same_face(shape, face, wall.container, of_wall.first);
       });
     });
   };
-  return opened(shape, [&](const std::string& face) { return radiates(face) == radiating; });
+  return opened(shape,
+                [&](const std::string& face) { return is_cut(shape, face, fluid.symmetry.axis) || radiates(face) == radiating; });
 }
 
 }  // namespace
@@ -94,12 +101,10 @@ Primitive opened(const Primitive& container, const std::function<bool(const std:
   return larger;
 }
 
-Primitive without_radiating_faces(const Primitive& shape, const std::vector<sph::Wall>& walls) {
-  return opened_where(shape, walls, true);
-}
+Primitive without_radiating_faces(const Primitive& shape, const sph::Settings& fluid) { return opened_where(shape, fluid, true); }
 
-Primitive with_radiating_faces_only(const Primitive& shape, const std::vector<sph::Wall>& walls) {
-  return opened_where(shape, walls, false);
+Primitive with_radiating_faces_only(const Primitive& shape, const sph::Settings& fluid) {
+  return opened_where(shape, fluid, false);
 }
 
 }  // namespace undex::scene

@@ -16,10 +16,10 @@ inline constexpr double endless = 1e6;
 Primitive opened(const Primitive& container, const std::function<bool(const std::string& face)>& open);
 
 /// A body's shape without end at those of its faces that lie on radiating faces of the walls. A wave that has passed them is in
-/// the body what it would be in water without end.
-Primitive without_radiating_faces(const Primitive& shape, const std::vector<sph::Wall>& walls);
+/// the body what it would be in water without end. Nor does it end at a symmetry plane, where it is drawn on the kept side only.
+Primitive without_radiating_faces(const Primitive& shape, const sph::Settings& fluid);
 
 /// The same shape with these faces only. Inside, the distance to its surface is that to where waves leave.
-Primitive with_radiating_faces_only(const Primitive& shape, const std::vector<sph::Wall>& walls);
+Primitive with_radiating_faces_only(const Primitive& shape, const sph::Settings& fluid);
 
 }  // namespace undex::scene

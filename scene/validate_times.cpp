@@ -114,8 +114,7 @@ void Validator::start_time() {
       });
       const double sound = around ? sound_at_rest(medium) : 0.0;
       if (!(sound > 0)) continue;
-      const double obstacle =
-          -signed_distance(without_radiating_faces(medium.shape.base, fluid_.walls), sphere->center, dimension_);
+      const double obstacle = -signed_distance(without_radiating_faces(medium.shape.base, fluid_), sphere->center, dimension_);
       const double burning = charge.burn && !charge.burn->instantaneous ? sphere->radius / charge.burn->D : 0.0;
       const double latest = burning + std::max(0.0, obstacle - sphere->radius) / sound;
       if (time > latest)

@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 try:
@@ -98,6 +99,9 @@ def differences(one, other):
     """What differs, bit for bit, between the results of two runs; costs and the number of threads are not results."""
     found = []
     first, second = summary(one), summary(other)
+    for record in (first, second):  # where a warning's key stands: in the scene, or in resolved.toml
+        if "warnings" in record:
+            record["warnings"] = [re.sub(r"^\S+\.toml:\d+:\d+: ", "", warning) for warning in record["warnings"]]
     for key in first.keys() | second.keys():
         if key in ("wall_time_s", "cpu_time_s", "threads", "passes", "peak_memory_bytes", "solver_memory_bytes", "scene"):
             continue

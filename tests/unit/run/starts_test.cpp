@@ -269,6 +269,35 @@ TEST(SphericalStart, RadiatingFacesAreNoObstacles) {
   EXPECT_LT(std::abs(here.energy().error()), 5e-3);
 }
 
+/// A body that is drawn on the kept side of the symmetry planes only goes on beyond them, and so do its walls.
+TEST(SphericalStart, BodiesMayEndAtSymmetryPlanes) {
+  for (const char* walls : {"condition = \"radiating\"\n", "condition = \"free_slip\"\n"}) {
+    scene::Scene whole = read_text(ball_in_a_box(0.03, 0.06, walls));
+    scene::Scene kept = read_text(ball_in_a_box(0.03, 0.06, walls),
+                                  {{"bodies.water.shape.low", "[0, 0, -0.03]"}, {"walls.sea.shape.low", "[0, 0, -0.03]"}});
+    begin_spherically(whole);
+    begin_spherically(kept);
+    EXPECT_EQ(kept.fluid.start_time, whole.fluid.start_time);
+    for (std::size_t b : {0, 1})  // to how exactly the mass in the box is integrated
+      EXPECT_NEAR(kept.fluid.bodies[b].start->mass / whole.fluid.bodies[b].start->mass, 1.0, 1e-6);
+    const double early = 0.9 * whole.fluid.start_time;
+    EXPECT_NO_THROW(read_text(ball_in_a_box(0.03, 0.06, walls), {{"bodies.water.shape.low", "[0, 0, -0.03]"},
+                                                                 {"walls.sea.shape.low", "[0, 0, -0.03]"},
+                                                                 {"start.time", std::to_string(early)}}));
+  }
+}
+
+TEST(SphericalStart, WarnsOfAGasOfFewSpacings) {
+  const auto warnings = [](const char* spacing) {
+    scene::Scene scene = read_text(ball_in_a_box(0.06, 0.06, ""), {{"resolution.spacing", spacing}, {"start.time", "1e-6"}});
+    begin_spherically(scene);
+    return scene.warnings;
+  };
+  EXPECT_TRUE(warnings("0.002").empty());
+  ASSERT_EQ(warnings("0.003").size(), 1u);
+  EXPECT_NE(warnings("0.003")[0].find("bodies.gas: its gas has a radius of 3"), std::string::npos) << warnings("0.003")[0];
+}
+
 /// With start.time as late as one likes, as long as the gas is inside; without one when the wave nears the face.
 TEST(SphericalStart, TheWaveMayHaveLeft) {
   const std::string radiating = ball_in_a_box(0.03, 0.06, "condition = \"radiating\"\n");
