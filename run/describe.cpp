@@ -159,7 +159,7 @@ std::string describe(const scene::Scene& given, std::string* drawing) {
   text += format("memory about %.0f MB\n", std::ceil(memory / 1e6));
   text += format("run time %s with %d threads, by the first steps%s; fields and histories not counted\n",
                  duration(left / pace + for_start).c_str(), omp_get_max_threads(),
-                 for_start > 1.0 ? format(" and %.0f s for the start", for_start).c_str() : "");
+                 for_start > 0.1 ? format(" and %.2g s for the start", for_start).c_str() : "");
   return text;
 }
 

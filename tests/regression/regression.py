@@ -66,7 +66,8 @@ def panel(scene, *extremes):
                 extremes=["centre.displacement_z", "bar.displacement_z", *extremes])
 
 
-# In double precision, for a free body's momentum: in mixed it is exchanged to the rounding of single numbers. Settling costs more than the run.
+# In double precision, for a free body's momentum: in mixed it is exchanged to the rounding of single numbers. Settling costs more
+# than the run.
 CAPPED_CYLINDER = Case("capped_cylinder", 150 * US, {"resolution.spacing": 0.02, "start.kind": "spherical", "scheme.precision": "full",
                         "resolution.settle": "false"},
                        fields=[150e-6], interface=INTERFACE_COARSE,
