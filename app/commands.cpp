@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "app/data_folder.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "judge/judge.hpp"
@@ -57,7 +58,7 @@ std::vector<fs::path> case_folders() {
   std::vector<fs::path> folders;
   if (const char* given = std::getenv("UNDEX_CASES"); given && *given) folders.emplace_back(given);
   folders.emplace_back("cases");
-  folders.emplace_back(UNDEX_CASES_FOLDER);
+  folders.push_back(data_folder() / "cases");
   return folders;
 }
 

@@ -77,7 +77,8 @@ int dispatch(int argc, char** argv) {
           "-v,--verbose", [&] { resume_arguments.verbosity = 1; }, "print every step")
       ->excludes(quiet_resume);
   resume->footer(
-      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). docs/outputs.md");
+      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). "
+      "docs/reference/outputs.md");
 
   CheckArguments check_arguments;
   CLI::App* check = program.add_subcommand(
@@ -92,7 +93,8 @@ int dispatch(int argc, char** argv) {
   judgement->add_option("--reference", judge_options.reference,
                         "CSV in place of the scene's reference: a table of metrics, or a reference history");
   judgement->add_flag("-q,--quiet", judge_options.quiet, "print nothing but errors");
-  judgement->footer("Rewrites the metrics in summary.json (and profile.csv); nothing else changes. Definitions: docs/outputs.md");
+  judgement->footer(
+      "Rewrites the metrics in summary.json (and profile.csv); nothing else changes. Definitions: docs/reference/outputs.md");
 
   study::CompareOptions compare_options;
   CLI::App* comparison = program.add_subcommand(
@@ -114,7 +116,7 @@ int dispatch(int argc, char** argv) {
   comparison->add_flag("--force", compare_options.force, "write into an output folder that is not empty");
   comparison->footer(
       "Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
-      "how: docs/outputs.md");
+      "how: docs/reference/outputs.md");
 
   study::StudyOptions study_options;
   CLI::App* study_command = program.add_subcommand(
@@ -135,7 +137,7 @@ int dispatch(int argc, char** argv) {
   study_command->add_flag("-q,--quiet", study_options.quiet, "print nothing but errors");
   study_command->footer(
       "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which scripts/plot_study.py DIR draws. "
-      "The study file: docs/studies.md");
+      "The study file: docs/reference/studies.md");
 
   MaterialsArguments materials_arguments;
   CLI::App* materials = program.add_subcommand(
@@ -149,7 +151,7 @@ int dispatch(int argc, char** argv) {
       "explosive is unverified where a listed speed or pressure of detonation is over 2 % off its own Chapman-Jouguet state.");
   std::string page;
   CLI::App* keys =
-      program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/scene-file.md")->group("");
+      program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/reference/scene-file.md")->group("");
   keys->add_option("page", page, "the page; its marks say which table goes where")->required();
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");

@@ -1,5 +1,5 @@
 // How stiff the first layer of the water's particles is to a wall that it lies before: what a light wall may not be moved against
-// in too long a step (docs/equations.md, section 14).
+// in too long a step (docs/theory/equations.md, section 14).
 #pragma once
 
 #include <vector>

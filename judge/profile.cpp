@@ -1,4 +1,5 @@
-// comparison.kind = "profile": the particles at the end beside an exact solution in space (docs/outputs.md, "Metrics: profile").
+// comparison.kind = "profile": the particles at the end beside an exact solution in space (docs/reference/outputs.md,
+// "Metrics: profile").
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -23,7 +23,7 @@ template <class Law>
 concept IsFluidLaw = std::constructible_from<Law, const typename Law::Parameters&> && Described<typename Law::Parameters> &&
     requires(const Law& law, double rho, double energy, double pressure) {
   { Law::name } -> std::convertible_to<const char*>;     // in a scene file
-  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/scene-file.md
+  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/reference/scene-file.md
   { Law::uses_energy } -> std::convertible_to<bool>;     // does it need an energy field?
   { Law::is_gas } -> std::convertible_to<bool>;          // does a body's smoothing length follow its density?
   { law.parameters().rho0 } -> std::convertible_to<double>;

@@ -24,7 +24,7 @@ template <class Law>
 concept HasIsotherm = Described<Law> &&
     requires(const Law& law, const Isotherm<Law>& at, double temperature, double strain, double rate) {
   { Law::name } -> std::convertible_to<const char*>;     // in a scene file
-  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/scene-file.md
+  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/reference/scene-file.md
   Isotherm<Law>(law, temperature);
   { at.least() } -> std::same_as<double>;  // what the flow stress never falls below, without a transcendental function [Pa]
   { at.at_rest(strain) } -> std::same_as<double>;  // flow stress at zero rate [Pa]

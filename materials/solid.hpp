@@ -111,9 +111,9 @@ struct Warming {
   double factor = 1.0, rise = 0.0;
   double operator()(double temperature) const { return factor * temperature + rise; }
 };
-/// That of the isentrope through the state before the step, and what the energy is above it (docs/equations.md, "Temperature"):
-/// exact for shocks of any number of steps. A pressure law without energy has neither the warmth of compression nor that of
-/// shocks: the temperature is then that of plastic work alone, and unchanged here.
+/// That of the isentrope through the state before the step, and what the energy is above it (docs/theory/equations.md,
+/// "Temperature"): exact for shocks of any number of steps. A pressure law without energy has neither the warmth of
+/// compression nor that of shocks: the temperature is then that of plastic work alone, and unchanged here.
 Warming warming(const Solid& solid, const VolumeStep& step);
 /// Rise [K] by what is dissipated [J/kg] at a constant volume, plastic work apart; none with a pressure law without energy.
 double rise_by(const Solid& solid, double dissipated);

@@ -56,7 +56,7 @@ void describe(MieGruneisenPressure& law, Visit&& visit) {
 template <class Law>
 concept IsSolidPressure = Described<Law> && requires(const Law& law, double rho0, double rho, double energy) {
   { Law::name } -> std::convertible_to<const char*>;     // in a scene file
-  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/scene-file.md
+  { Law::summary } -> std::convertible_to<const char*>;  // its formula, for docs/reference/scene-file.md
   { evaluate(law, rho0, rho, energy) } -> std::same_as<SolidPressureSound>;
   { bulk_modulus(law, rho0) } -> std::same_as<double>;
   { gruneisen(law) } -> std::same_as<std::optional<double>>;

@@ -66,7 +66,8 @@ class LineFlow {
   std::function<FluidPoint()> at_surface(const Vec3& start) const;
   /// The material point of a solid at a place of the start, whenever asked.
   std::function<MaterialPoint()> in_solid(const Vec3& start) const;
-  /// A field of all cells by the name that particles have for it (docs/outputs.md); places are (r, 0, 0) from the middle, or x.
+  /// A field of all cells by the name that particles have for it (docs/reference/outputs.md); places are (r, 0, 0) from the
+  /// middle, or x.
   std::vector<double> field(const std::string& name) const;
 
   /// What a reader must know of the run: when the wave reached the outer end. Empty: nothing.

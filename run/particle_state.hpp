@@ -1,7 +1,8 @@
 // The particles of a simulation's fluid at one moment, read as fields in space: which body is at a place, and its mean state over
 // a width. Sums over Wendland's kernel (C2), at h = 1.2 spacings of the particles (as probes read them) or, where the width is
-// larger, at that whose variance is that of a cell so wide. States are moving least squares of first order (docs/equations.md,
-// section 15), within the range of the neighbours: uniform fields and linear ones come back as they are.
+// larger, at that whose variance is that of a cell so wide. States are moving least squares of first order
+// (docs/theory/equations.md, section 15), within the range of the neighbours: uniform fields and linear ones come back as they
+// are.
 #pragma once
 
 #include <functional>

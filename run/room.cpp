@@ -20,7 +20,7 @@ namespace undex::run {
 namespace {
 
 constexpr double bytes_of_line_cell = 400;
-// As `undex check` finds them once all is laid out (docs/performance.md), neighbours and transient copies counted.
+// As `undex check` finds them once all is laid out (docs/results/performance.md), neighbours and transient copies counted.
 constexpr double bytes_of_particle = 260, bytes_of_wall_particle = 110, bytes_of_cell = 3000;
 constexpr double bytes_of_lagrangian[4] = {0, 700, 1800, 2800}, bytes_of_updated = 700;  // of a solid's particle, by dimension
 

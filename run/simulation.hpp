@@ -36,7 +36,7 @@ struct EnergyBalance {
     return kinetic + internal + dissipated + structure_kinetic + obstacle_kinetic + elastic + plastic + viscous - external -
            gravity - surroundings + radiated;
   }
-  double scale = 0;  // what errors are measured against: docs/equations.md, section 16
+  double scale = 0;  // what errors are measured against: docs/theory/equations.md, section 16
   double error() const { return scale > 0 ? (total() - start) / scale : 0.0; }
 };
 

@@ -168,7 +168,7 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
 
 /// A gas that fills few spacings when the particles take over keeps too small a bubble.
 void warn_of_coarse_gas(scene::Scene& scene, const Charge& charge, std::size_t medium) {
-  constexpr double least = 4;  // spacings: docs/accuracy.md, "The bubble behind a spherical start"
+  constexpr double least = 4;  // spacings: docs/results/accuracy.md, "The bubble behind a spherical start"
   const auto spacing_of = [&](std::size_t body) {
     return scene.fluid.bodies[body].spacing.value_or(scene.fluid.lattice.spacing);
   };

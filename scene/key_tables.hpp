@@ -1,4 +1,4 @@
-// The tables of keys in docs/scene-file.md, made from the records.
+// The tables of keys in docs/reference/scene-file.md, made from the records.
 #pragma once
 
 #include <string>

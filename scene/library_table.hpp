@@ -1,4 +1,4 @@
-// The library's sets as a table of docs/scene-file.md.
+// The library's sets as a table of docs/reference/scene-file.md.
 #pragma once
 
 #include <string>

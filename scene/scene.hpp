@@ -121,7 +121,7 @@ struct Probe {
   std::vector<std::string> quantities;   ///< of the lists in core/point_values.hpp
 };
 
-/// The quantities that a probe may ask of, for docs/scene-file.md.
+/// The quantities that a probe may ask of, for docs/reference/scene-file.md.
 const char* quantities_in_words();
 template <class Visit>
 void describe(Probe& probe, Visit&& visit) {

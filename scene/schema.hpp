@@ -1,5 +1,5 @@
 // Every key of a scene file: a view of the records of all that a scene sets, and the keys of tables that have none. The reader,
-// the writer, the suggestions and the tables of docs/scene-file.md take it from here.
+// the writer, the suggestions and the tables of docs/reference/scene-file.md take it from here.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ const std::vector<Section>& schema();
 /// The section of that name, of a scene or of a study; it must exist.
 const Section& section(std::string_view name);
 
-/// The same of a study file (docs/studies.md): "study" is its top.
+/// The same of a study file (docs/reference/studies.md): "study" is its top.
 const std::vector<Section>& study_schema();
 
 /// "greater than 0", "from 0 to 1", "at least 0".

@@ -1,4 +1,5 @@
-// A study: one or more scenes computed over a grid of settings, as plain data, read from one TOML file (docs/studies.md).
+// A study: one or more scenes computed over a grid of settings, as plain data, read from one TOML file
+// (docs/reference/studies.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Every table of a scene that has a record, once: the schema and the tables of docs/scene-file.md are views of it.
+// Every table of a scene that has a record, once: the schema and the tables of docs/reference/scene-file.md are views of it.
 #pragma once
 
 #include <string>

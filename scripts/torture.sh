@@ -4,7 +4,7 @@
 # Usage: scripts/torture.sh --hours N [--seed S] [--parts LIST]
 #   --hours N: how long in all, building aside; 0.1 is a trial.  --seed S: what is tried (default: the time).
 #   --parts LIST: only these, with commas; all of kills,disks,checkpoints,scenes,in_process,fuzz,memory,checked unless given.
-# Prints what each part counted; ends with 1 where anything failed. What failed is kept and named. docs/reliability.md says what
+# Prints what each part counted; ends with 1 where anything failed. What failed is kept and named. docs/results/reliability.md says what
 # each part tries. The fuzzers need clang, and the full disks root; without clang they are left out, and said to be.
 set -uo pipefail
 hours=''

@@ -38,7 +38,7 @@ constexpr auto words(Precision) {
   return std::to_array<Word<Precision>>({{"full", Precision::full}, {"mixed", Precision::mixed}});
 }
 
-/// How the fluid advances in time (docs/equations.md, section 7).
+/// How the fluid advances in time (docs/theory/equations.md, section 7).
 enum class Integrator {
   leapfrog,  ///< kick-drift-kick, its one evaluation a step at a predicted state
   ssp_rk3,   ///< Runge-Kutta, strong-stability-preserving, third order: three evaluations a step
@@ -48,7 +48,7 @@ constexpr auto words(Integrator) {
 }
 
 /// Courant number of a scene that names none. C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2,
-/// where waves grow (docs/performance.md).
+/// where waves grow (docs/results/performance.md).
 inline double default_courant(Integrator integrator, KernelName kernel) {
   const double leapfrog = kernel == KernelName::wendland_c6 ? 0.27 : 0.35;
   return integrator == Integrator::ssp_rk3 ? 2.0 * leapfrog : leapfrog;
@@ -122,7 +122,7 @@ void describe(Lattice& lattice, Visit&& visit) {
         {.name = "settle",
          .meaning = "particles are moved before the start until uniform pressure leaves them at rest: rings "
                     "beside their axis, round and unfitted walls, jitter. A lattice that is at rest stays as it is: "
-                    "[equations](equations.md#settled-starts)"});
+                    "[equations](../theory/equations.md#settled-starts)"});
 }
 
 /// State of one particle at the start.
@@ -301,12 +301,13 @@ void describe(Wall& wall, Visit&& visit) {
                    .values = "a [shape](#shapes)",
                    .meaning = "the inside. Other than a box, cylinder, cone or sphere along the axes it has no faces by name and "
                               "is \"free_slip\": it becomes an obstacle, a box with that hole"});
-  visit(ByHand{},
-        {.name = "condition",
-         .rule = "\"free_slip\"",
-         .values = "\"free_slip\", \"no_slip\", \"open\", \"radiating\"",
-         .meaning = "of all faces not named in `faces`; \"open\": no wall there; \"radiating\": waves leave "
-                    "([how](equations.md#radiating-faces)), of boxes, cylinders and spheres, not with scheme \"paper\""});
+  visit(
+      ByHand{},
+      {.name = "condition",
+       .rule = "\"free_slip\"",
+       .values = "\"free_slip\", \"no_slip\", \"open\", \"radiating\"",
+       .meaning = "of all faces not named in `faces`; \"open\": no wall there; \"radiating\": waves leave "
+                  "([how](../theory/equations.md#radiating-faces)), of boxes, cylinders and spheres, not with scheme \"paper\""});
   visit(wall.source,
         {.name = "source",
          .unit = "m",
@@ -350,7 +351,7 @@ struct Numerics {
 };
 
 /// Defaults of parameters that depend on others; given(key): does the scene name it? In three dimensions no figure of any scene
-/// moves by more than 2e-6 in mixed precision (docs/performance.md); in one and two there is little to save.
+/// moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one and two there is little to save.
 void apply_defaults(Numerics& numerics, int dimension, auto&& given) {
   if (!given("kernel") && numerics.scheme == SchemeName::paper) numerics.kernel = KernelName::gaussian;
   if (!given("precision")) numerics.precision = dimension == 3 ? Precision::mixed : Precision::full;
@@ -365,7 +366,7 @@ void describe(Numerics& numerics, Visit&& visit) {
         {.name = "name",
          .meaning = "limited reconstruction and a Riemann flux per pair of particles, plain or with corrected kernel "
                     "gradients; artificial viscosity, with one coefficient, or one per particle that rises where it "
-                    "is compressed, or with the paper's walls: [equations](equations.md#3-pair-schemes)"});
+                    "is compressed, or with the paper's walls: [equations](../theory/equations.md#3-pair-schemes)"});
   visit(numerics.kernel, {.name = "kernel",
                           .rule = "\"wendland_c2\"; paper \"gaussian\"",
                           .meaning = "smoothing kernel; radius 2h, of the quintic spline and the Gaussian 3h"});
@@ -373,7 +374,7 @@ void describe(Numerics& numerics, Visit&& visit) {
         {.name = "precision",
          .rule = "\"mixed\" in three dimensions, else \"full\"",
          .meaning = "numbers of the loop over pairs: double, or single on places relative to a few neighbours "
-                    "(state stays double); what it costs in error: [performance](performance.md#mixed-precision). "
+                    "(state stays double); what it costs in error: [performance](../results/performance.md#mixed-precision). "
                     "Spacings from 2e-5 m on"});
   visit(numerics.eta, {.name = "eta",
                        .range = Range::between(0.8, 3),
@@ -393,7 +394,7 @@ void describe(Numerics& numerics, Visit&& visit) {
         {.name = "integrator",
          .meaning = "one evaluation of the pairs a step, second order in time; or a Runge-Kutta method of third "
                     "order with three, at about twice the step: [what it "
-                    "gains](performance.md#runge-kutta-instead-of-the-leapfrog)"});
+                    "gains](../results/performance.md#runge-kutta-instead-of-the-leapfrog)"});
   visit(numerics.courant, {.name = "courant",
                            .range = Range::above(0, 2),
                            .rule = "0.35; wendland_c6 0.27; ssp_rk3 twice that",
@@ -407,7 +408,8 @@ void describe(Numerics& numerics, Visit&& visit) {
       {.name = "local_steps",
        .used = numerics.integrator == Integrator::leapfrog,
        .meaning = "may bodies whose stable step is less than half the others' take several substeps in one of theirs, where that "
-                  "saves work? [What it gains](performance.md#local-steps). With \"leapfrog\" and without `fixed_step` only"});
+                  "saves work? [What it gains](../results/performance.md#local-steps). With \"leapfrog\" and without "
+                  "`fixed_step` only"});
   visit(numerics.signal, {.name = "signal",
                           .range = Range::between(0, 0.1),
                           .meaning = "particles at rest are left out until a signal of this share of the sound speed (or of the "

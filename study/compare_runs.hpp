@@ -1,4 +1,4 @@
-// undex compare: finished runs beside each other (docs/outputs.md, "Comparing runs").
+// undex compare: finished runs beside each other (docs/reference/outputs.md, "Comparing runs").
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// undex study: a grid of runs, computed where they are not there yet, and one table of all of them (docs/studies.md).
+// undex study: a grid of runs, computed where they are not there yet, and one table of all of them (docs/reference/studies.md).
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,7 @@
 namespace undex::sph::UNDEX_LEVEL {
 
 /// Any of the kernels, chosen by the input: one loop serves them all, for a branch that is the same for every pair
-/// (docs/performance.md has its price). The others are known where the loop is compiled.
+/// (docs/results/performance.md has its price). The others are known where the loop is compiled.
 struct AnyKernel {
   KernelName which;
   double support, scale;

@@ -1,7 +1,7 @@
 // Smoothing kernels W(r, h) in 1, 2 and 3 dimensions, and F = (dW/dr)/r for pair loops.
 // Each kernel is one struct: its support in units of h, its shape w(q) and f(q^2) = (dw/dq)/q, q = r/h, and its
 // normalisation by dimension; T is double or float, V is T or a SIMD vector of it. W = norm/h^d w(q), F = norm/h^(d+2) f.
-// `usual_eta` is the h/dx that a scene gets by default (docs/equations.md, section 2).
+// `usual_eta` is the h/dx that a scene gets by default (docs/theory/equations.md, section 2).
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
     corpus.py PROJECT_FOLDER OUTPUT_FOLDER
 
 Writes OUTPUT_FOLDER/<fuzzer>/ (scene, overrides, study, mesh, reference, record) and OUTPUT_FOLDER/<fuzzer>.dict. Words of scenes and
-studies are the keys and values in the tables of docs/scene-file.md, which the program writes from its records, and docs/studies.md.
+studies are the keys and values in the tables of docs/reference/scene-file.md, which the program writes from its records, and docs/reference/studies.md.
 """
 import json
 import pathlib
@@ -103,9 +103,9 @@ def main(project, output):
     inputs["mesh"].update({f"tee_{version}.msh": tee(version) for version in (2.1, 2.2, 4.1)})
     inputs["record"] = {"full": json.dumps(RECORD, indent=2), "least": '{"scene": "a", "status": "done"}'}
 
-    scene_words = keys_of(project / "docs" / "scene-file.md")
+    scene_words = keys_of(project / "docs" / "reference" / "scene-file.md")
     words = {
-        "scene": scene_words, "overrides": scene_words, "study": scene_words + keys_of(project / "docs" / "studies.md"),
+        "scene": scene_words, "overrides": scene_words, "study": scene_words + keys_of(project / "docs" / "reference" / "studies.md"),
         "mesh": ["$MeshFormat", "$EndMeshFormat", "$PhysicalNames", "$EndPhysicalNames", "$Entities", "$EndEntities", "$Nodes",
                  "$EndNodes", "$Elements", "$EndElements", "$Comments", "2.2 0 8", "4.1 0 8", "nan", "1e999", "-1", "18446744073709551616"],
         "reference": ["metric,", "label,unit,scale,", "time [s],", "pressure [Pa]", "+-", "nan", "inf", "1e999", "-1", "0x1p3", "#"],

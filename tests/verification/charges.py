@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Charges: on the radius the bubble beside Willis' relation and the wave beside the laws of similitude; each explosive as a slab.
-Coarse, in seconds; the figures of fine runs are in docs/accuracy.md.
+Coarse, in seconds; the figures of fine runs are in docs/results/accuracy.md.
 
     charges.py PROGRAM CASES_FOLDER NAME    runs one test; exit code 1 and one line per finding
     charges.py --names                      the tests
@@ -53,7 +53,7 @@ def wave(program, cases, folder):
 
 def slabs(program, cases, folder):
     """A slab of every explosive of the library beside its own Chapman-Jouguet state, when the front has run half of 83 mm and all.
-    Of the coarse run's peak 3 % are missing at most, of the fine run's in docs/accuracy.md 1 %."""
+    Of the coarse run's peak 3 % are missing at most, of the fine run's in docs/results/accuracy.md 1 %."""
     for explosive in json.loads(runs.call(program, "materials", "--kind", "explosive", "--json").stdout):
         name, speed = explosive["name"], explosive["chapman_jouguet"]["D"]
         metrics, times = [], []

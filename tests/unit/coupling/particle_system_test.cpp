@@ -261,7 +261,7 @@ TEST(RingsAndSolids, WaterUnderPressureRestsInATubeAsInThePlane) {
   tube.wet = {"x_low"};
   const double plane = unrest(s.water, tube, false), rings = unrest(s.water, tube, true);
   EXPECT_LT(plane, 0.001);
-  EXPECT_LT(rings, 0.1 * 0.0025 / 0.02);  // what images behind a curved mirror leave (docs/equations.md, section 4)
+  EXPECT_LT(rings, 0.1 * 0.0025 / 0.02);  // what images behind a curved mirror leave (docs/theory/equations.md, section 4)
 }
 
 TEST(RingsAndSolids, NoSlipIsRefused) { EXPECT_THROW(Together(drop_on_disc(SchemeName::riemann), false), std::invalid_argument); }

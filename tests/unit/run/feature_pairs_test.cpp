@@ -141,7 +141,7 @@ std::string Column::text() const {
 }
 
 /// One thing that a scene may have. Two of one group exclude each other. Where the plate is stopped at once the water's step is a
-/// third: within a step it sees the plate go on (docs/equations.md, section 14, "Ledger").
+/// third: within a step it sees the plate go on (docs/theory/equations.md, section 14, "Ledger").
 struct Feature {
   const char* group;
   const char* name;

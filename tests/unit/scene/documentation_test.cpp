@@ -1,4 +1,4 @@
-// docs/scene-file.md names every key, with its unit, and its examples are good scenes.
+// docs/reference/scene-file.md names every key, with its unit, and its examples are good scenes.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using namespace undex::scene;
 using namespace undex::scene::test;
 
 std::string page() {
-  std::ifstream file(std::string(UNDEX_ROOT) + "/docs/scene-file.md");
+  std::ifstream file(std::string(UNDEX_ROOT) + "/docs/reference/scene-file.md");
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -81,7 +81,7 @@ TEST(Documentation, NumericDefaultsAreThoseOfTheSettings) {
 
 TEST(Documentation, TablesAreThoseOfTheRecords) {
   const std::string text = page();
-  EXPECT_EQ(with_key_tables(text, "the page"), text) << "write them anew: undex keys docs/scene-file.md";
+  EXPECT_EQ(with_key_tables(text, "the page"), text) << "write them anew: undex keys docs/reference/scene-file.md";
 }
 
 TEST(Documentation, MarksOfATableMustBeSound) {

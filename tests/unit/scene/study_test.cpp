@@ -253,7 +253,7 @@ TEST(Study, WhatCannotBeAGrid) {
 }
 
 TEST(Study, PageNamesEveryKeyWithItsUnit) {
-  std::ifstream file(std::string(UNDEX_ROOT) + "/docs/studies.md");
+  std::ifstream file(std::string(UNDEX_ROOT) + "/docs/reference/studies.md");
   std::ostringstream page;
   page << file.rdbuf();
   for (const Section& section : study_schema())
