@@ -5,7 +5,7 @@ Usage: run_pages.py PROGRAM PAGE.md... [--write] [--keep FOLDER]
        run_pages.py --self-test
 
 PROGRAM is the undex to run; --write puts the present output into the pages; --keep runs in FOLDER and leaves it there.
-Each page is followed from its top in an empty folder. Its blocks are
+Each page is followed from its top in an empty folder; a page beside the project's cases/ sees them there. Its blocks are
 
   ```toml title="NAME"            a file of that name (of any language: toml, python, ...)
   ```toml title="add to NAME"     more lines at the end of that file
@@ -15,8 +15,8 @@ Each page is followed from its top in an empty folder. Its blocks are
 and all others are only read. A comment before a block of commands changes that: <!-- not run: reason -->, <!-- exit code 2 -->.
 <!-- varies: CPU s, steps --> before a block of output leaves columns under these headings out of the comparison.
 
-Words must agree. A number must agree within 2 % or two units of its last digit, a percentage with a sign within one point more;
-seconds, memory and speed, which depend on the machine, are not compared.
+Words must agree. A number must agree within 2 % or, if it has a decimal point, two units of its last digit; a percentage with a sign
+within one point more; seconds, memory and speed, which depend on the machine, are not compared.
 """
 import argparse
 import os
@@ -84,7 +84,8 @@ def last_digit(text):
 
 def agree(shown, found, percent):
     a, b = float(shown), float(found)
-    room = 2.0001 * max(last_digit(shown), last_digit(found)) + (1 if percent else 0)
+    counts = shown.lstrip("+-").isdigit() and found.lstrip("+-").isdigit()
+    room = (0 if counts else 2.0001 * max(last_digit(shown), last_digit(found))) + (1 if percent else 0)
     return abs(a - b) <= max(SHARE * max(abs(a), abs(b)), room)
 
 
@@ -114,20 +115,37 @@ def columns_of(header, names):
     return spans
 
 
-def align(shown, printed):
-    """For each shown line the printed line that it stands for, None for a gap. The first shown line that is not printed, if any."""
-    found, at, jump = [], 0, False
-    for line in shown:
+def segments_of(shown):
+    """Runs of lines between gaps, as pairs of their first line's number and their lines."""
+    segments, first = [], 0
+    for i, line in enumerate([*shown, GAP]):
         if line.strip() == GAP:
-            found.append(None)
-            jump = True
+            segments.append((first, shown[first:i]))
+            first = i + 1
+    return segments
+
+
+def place_of(lines, printed, places):
+    """Where the printed lines have the words of these, and of such places the one whose numbers differ least."""
+    fitting = [i for i in places if all(i + k < len(printed) and matches(line, printed[i + k]) for k, line in enumerate(lines))]
+    return min(fitting, key=lambda i: sum(len(differences(line, printed[i + k])) for k, line in enumerate(lines)), default=None)
+
+
+def align(shown, printed):
+    """For each shown line the printed line that it stands for, None for a gap; and the first segment that is not printed, if any."""
+    found, at = [None] * len(shown), 0
+    segments = segments_of(shown)
+    for first, lines in segments:
+        if not lines:
             continue
-        candidates = range(at, len(printed)) if jump else range(at, min(at + 1, len(printed)))
-        place = next((i for i in candidates if matches(line, printed[i])), None)
-        if place is None:
-            return found, line
-        found.append(place)
-        at, jump = place + 1, False
+        places = range(at, len(printed)) if first else range(1)
+        if first + len(lines) == len(shown):
+            places = [i for i in places if i + len(lines) == len(printed)]
+        at = place_of(lines, printed, places)
+        if at is None:
+            return found, "\n".join(lines)
+        found[first:first + len(lines)] = range(at, at + len(lines))
+        at += len(lines)
     return found, None
 
 
@@ -204,7 +222,9 @@ def self_test():
     assert directive(blocks[2], "exit code") is None and blocks[0].title == "a.toml" and blocks[2].first == 10
     assert matches("a  1.5 mm", "a 200 mm") and not matches("a 1 mm", "a 1 cm") and matches(f"peak 3 {GAP}", "peak 3 and more")
     assert align(["one 1", GAP, "three 3"], ["one 4", "two 2", "three 5"]) == ([0, None, 2], None)
-    assert align(["one 1", "three 3"], ["one 1", "two 2", "three 3"])[1] == "three 3"
+    assert align(["one 1", "three 3"], ["one 1", "two 2", "three 3"])[1] == "one 1\nthree 3"
+    assert align([GAP, "at 2 us 5", GAP], ["at 1 us 5", "at 2 us 5", "at 3 us 5"])[0] == [None, 1, None]
+    assert align(["at 1"], ["at 1", "more"])[1] and align([GAP, "at 1"], ["at 1", "more"])[1]
     assert not differences("x 1.00 mm", "x 1.02 mm") and differences("x 1.00 mm", "x 1.04 mm")
     assert not differences("x 7 s, 9 MB", "x 70 s, 1 MB") and differences("at 7 us", "at 70 us")
     assert not differences("y +2.4%", "y +3.4%") and differences("y +2.4%", "y +4.4%")
@@ -232,6 +252,9 @@ def main():
         with tempfile.TemporaryDirectory() as temporary:
             folder = options.keep / path.stem if options.keep else Path(temporary)
             folder.mkdir(parents=True, exist_ok=True)
+            cases = path.resolve().parent / "cases"
+            if cases.is_dir() and not (folder / "cases").exists():
+                (folder / "cases").symlink_to(cases)
             page = Page(path, options.program.resolve(), folder)
             page.follow()
             if options.write:
