@@ -1,6 +1,10 @@
-"""What mkdocs.yml leaves to be found: a pattern in its nav stands for all pages that match and are not named before it."""
+"""What mkdocs does beside its own: a pattern in the nav of mkdocs.yml stands for all pages that match and are not named before it,
+and lists and tables are found as GitHub finds them."""
+import re
 from pathlib import Path
 
+OPENING = re.compile(r"- |\d+\. |\|")                  # of a list or table
+BELONGS = re.compile(r"\s*- |\s*\d+\. |\||\s{2,}")  # a line of one
 
 def named(nav):
     """All pages of a nav, patterns among them."""
@@ -32,3 +36,15 @@ def on_config(config):
     pages = Path(config["docs_dir"])
     config["nav"] = expanded(config["nav"], pages, set(named(config["nav"])))
     return config
+
+
+def on_page_markdown(markdown, **_):
+    """A list or table that follows a line of text gets the empty line before it that mkdocs, unlike GitHub, asks for."""
+    lines, fenced = [], False
+    for line in markdown.split("\n"):
+        fenced ^= line.startswith("```")
+        before = lines[-1] if lines else ""
+        if not fenced and OPENING.match(line) and before.strip() and not BELONGS.match(before):
+            lines.append("")
+        lines.append(line)
+    return "\n".join(lines)
