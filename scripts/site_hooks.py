@@ -3,7 +3,7 @@ and lists and tables are found as GitHub finds them."""
 import re
 from pathlib import Path
 
-OPENING = re.compile(r"- |\d+\. |\|")                  # of a list or table
+OPENING = re.compile(r"- |1\. |\|")                     # of a list or table
 BELONGS = re.compile(r"\s*- |\s*\d+\. |\||\s{2,}")  # a line of one
 
 def named(nav):
