@@ -6,9 +6,9 @@
 
 namespace undex::app {
 
-/// Prints what is known of `topic`: a command's usage, the keys of a table ("scheme", "resolution"), one key ("scheme.kernel"), or a
-/// page of the documentation ("tutorial", "plate", "outputs"). Empty: the topics. Returns the exit code. Throws UsageError where
-/// nothing of that name is known.
+/// Prints what is known of `topic`: a command's usage, the keys of a table ("scheme", "resolution"), one key ("scheme.kernel"),
+/// or a page of the documentation ("tutorial", "plate", "outputs"). Empty: the topics. Returns the exit code.
+/// @throws UsageError where nothing of that name is known.
 int print_help(const CLI::App& program, const std::string& topic);
 
 }  // namespace undex::app
