@@ -1,0 +1,380 @@
+#!/usr/bin/env python3
+"""Writes the measured figures of the documentation from the files of results (docs/develop/results.md).
+
+  results.py write                   rewrites every marked table and value
+  results.py check                   says where a page differs from its results; exit code 1 where one does
+  results.py take STUDY FILE         cuts the table of a study's folder to a file of results, with its provenance
+
+docs/results/results.toml describes what each mark shows; docs/results/*.csv holds the figures. Standard library only.
+"""
+import argparse, csv, datetime, difflib, functools, math, pathlib, re, sys, tomllib
+
+DESCRIPTION = "docs/results/results.toml"
+PAGES = ("README.md", "docs/**/*.md", "cases/*/README.md")
+FENCE = re.compile(r"^(```|~~~).*?^\1", re.M | re.S)
+MARK = re.compile(r"<!-- (table|value) (\S+) -->(.*?)<!-- end -->", re.S)
+OPENING = re.compile(r"<!-- (?:table|value) \S+ -->")
+BOOKKEEPING = ("run", "curve", "problem", "message", "cpu_time_largest_s", "wall_time_s", "timings", "threads", "time_s", "program",
+               "particle_updates", "neighbour_interactions", "solver_memory_bytes", "bytes_per_particle", "peak_memory_bytes")
+
+
+class Mistake(Exception):
+    """Something in the description, a file of results or a page that a person has to mend; its text says where and how."""
+
+
+# --- files of results -----------------------------------------------------------------------------------------------------------
+
+class Results:
+    """The files of results below a root, and the description of what the pages show of them."""
+
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        try:
+            self.description = tomllib.loads((self.root / DESCRIPTION).read_text())
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            raise Mistake(f"{DESCRIPTION}: {error}")
+        self.read = functools.cache(self.read)
+        self.figures = self.read_figures()
+
+    def read(self, name):
+        """Rows of a CSV as dictionaries. A bare name lies in docs/results; the lines that begin with # are provenance."""
+        path = self.root / (name if "/" in name else f"docs/results/{name}")
+        try:
+            lines = path.read_text().splitlines()
+        except OSError as error:
+            raise Mistake(f"{path}: {error.strerror}; `results.py take` makes it from a study")
+        if not lines or not lines[0].startswith("# "):
+            raise Mistake(f"{path}: its first line has to say where it is from: # command; program; machine; date")
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        if any(None in row or None in row.values() for row in rows):
+            raise Mistake(f"{path}: a row has more or fewer cells than the header")
+        return rows
+
+    def read_figures(self):
+        """Single figures by name, from the files that the description calls files of figures."""
+        found = {}
+        for name in self.description.get("figures", []):
+            for row in self.read(name):
+                if row.get("name") in found:
+                    raise Mistake(f"{name}: {row['name']} stands there twice")
+                found[row["name"]] = row["figure"]
+        return found
+
+    def described(self, kind):
+        return self.description.get(kind, {})
+
+    def select(self, what, where):
+        """The rows of a table's or value's file that its condition names."""
+        rows = self.read(what["file"])
+        for column, wanted in where.items():
+            if rows and column not in rows[0]:
+                raise Mistake(f"{what['file']}: no column `{column}`{nearest(column, rows[0])}")
+            wanted = wanted if isinstance(wanted, list) else [wanted]
+            rows = [row for row in rows if any(same(row[column], value) for value in wanted)]
+        if not rows:
+            raise Mistake(f"{what['file']}: no row where {where}")
+        return rows
+
+    def one(self, what, where):
+        rows = self.select(what, where)
+        if len(rows) > 1:
+            raise Mistake(f"{what['file']}: {len(rows)} rows where {where}; one was wanted")
+        return rows[0]
+
+
+def same(cell, wanted):
+    if isinstance(wanted, str):
+        return cell == wanted
+    try:
+        return math.isclose(float(cell), wanted, rel_tol=1e-9)
+    except ValueError:
+        return False
+
+
+def nearest(name, names):
+    close = difflib.get_close_matches(name, names, 1)
+    return f"; `{close[0]}` is meant?" if close else ""
+
+
+# --- quantities -----------------------------------------------------------------------------------------------------------------
+
+def number(text, place):
+    try:
+        return float(text.split("+-")[0])
+    except ValueError:
+        raise Mistake(f"{place}: `{text}` is not a number")
+
+
+def cell_of(results, what, row, quantity):
+    """The text of one quantity of one row; nothing where the run has no such metric."""
+    column = quantity["column"]
+    if column not in row:
+        raise Mistake(f"{what['file']}: no column `{column}`{nearest(column, row)}")
+    if row[column] == "" or "format" not in quantity:
+        return row[column]
+    value = number(row[column], what["file"]) * quantity.get("scale", 1)
+    if "reference" in quantity:
+        value = difference(value, reference_of(results, quantity), quantity.get("difference", "percent"))
+    return formatted(value, quantity["format"])
+
+
+def reference_of(results, quantity):
+    there = quantity["reference"]
+    row = results.one(there, there.get("where", {}))
+    return number(row[there["column"]], there["file"]) * there.get("scale", 1)
+
+
+def difference(value, reference, kind):
+    if kind == "percent":
+        return 100 * (value / reference - 1)
+    if kind == "absolute":
+        return value - reference
+    raise Mistake(f"a difference is `percent` or `absolute`, not `{kind}`")
+
+
+def formatted(value, form):
+    """Of a printf format, or of `2 digits` that count."""
+    match = re.fullmatch(r"(\d+) digits", form)
+    if not match:
+        return form % (0.0 if float("%.12g" % value) == 0 else value)
+    digits = int(match[1])
+    if value == 0:
+        return "0"
+    return f"{value:.{max(0, digits - 1 - math.floor(math.log10(abs(float(f'{value:.{digits - 1}e}')))))}f}"
+
+
+# --- tables ---------------------------------------------------------------------------------------------------------------------
+
+def table_of_rows(results, what):
+    """A row of the file a line: all of its columns, or those that are described."""
+    rows = results.select(what, what.get("where", {}))
+    columns = what.get("columns") or [{"head": name, "column": name} for name in rows[0]]
+    return [[column["head"] for column in columns],
+            *([cell_of(results, what, row, column) for column in columns] for row in rows)]
+
+
+def table_across(results, what):
+    """A curve of a study a line, its resolutions across: error / cost, a star on the Pareto front, the observed order."""
+    rows = results.select(what, what.get("where", {}))
+    across, keys = what["across"], what["rows"]
+    steps = list(dict.fromkeys(row[across["column"]] for row in rows))
+    lines = [[what.get("head", keys[0]), *(formatted(float(step) * across.get("scale", 1), across["format"]) for step in steps)]]
+    if what.get("order"):
+        lines[0].append("order")
+    for curve in dict.fromkeys(tuple(row[key] for key in keys) for row in rows):
+        runs = {row[across["column"]]: row for row in rows if tuple(row[key] for key in keys) == curve}
+        lines.append([", ".join(curve), *(run_cell(results, what, runs.get(step)) for step in steps)])
+        if what.get("order"):
+            lines[-1].append(observed_order(what, runs))
+    return lines
+
+
+def run_cell(results, what, row):
+    if row is None or row.get("status", "done") != "done":
+        return row.get("status", "") if row else ""
+    cells = [cell_of(results, what, row, quantity) for quantity in what["cell"]]
+    if "star" in what and row[what["star"]] == "1":
+        cells[0] += "*"
+    return " / ".join(cells)
+
+
+def observed_order(what, runs):
+    """The least-squares slope of the first quantity's magnitude over the resolution, both in logarithms."""
+    done = [(step, row) for step, row in runs.items() if row.get("status", "done") == "done" and row[what["cell"][0]["column"]]]
+    points = [(math.log(float(step)), math.log(abs(float(row[what["cell"][0]["column"]])))) for step, row in done]
+    if len(points) < 2:
+        return ""
+    x, y = (sum(values) / len(points) for values in zip(*points))
+    return f"{sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points):.1f}"
+
+
+def table_of_metrics(results, what):
+    """A metric a line: the runs, then the sources of the table of references."""
+    names = what.get("metrics")
+    references = [row for row in results.read(what["reference"]) if names is None or row["metric"] in names]
+    runs = [results.one({"file": run.get("file", what.get("file"))}, run["where"]) for run in what["runs"]]
+    lines = [["", *(run["head"] for run in what["runs"]), *what["sources"]]]
+    for reference in references:
+        cells = [metric_cell(row.get(reference["metric"], ""), reference, what["sources"]) for row in runs]
+        lines.append([f"{reference['label']} ({reference['unit']})" if reference["unit"] != "-" else reference["label"], *cells,
+                      *(reference[source].replace("+-", " ± ") for source in what["sources"])])
+    return lines
+
+
+def metric_cell(text, reference, sources):
+    """With as many decimals as the first source has; three digits where it says nothing."""
+    if not text:
+        return ""
+    value = float(text) * float(reference["scale"])
+    known = next((reference[source] for source in sources if reference[source]), "")
+    return f"{value:.{len(known.split('+-')[0].partition('.')[2])}f}" if known else formatted(value, "3 digits")
+
+
+KINDS = {"rows": table_of_rows, "across": table_across, "metrics": table_of_metrics}
+
+
+def table(results, what):
+    kind = what.get("kind", "rows")
+    if kind not in KINDS:
+        raise Mistake(f"a table's kind is one of {', '.join(KINDS)}, not `{kind}`")
+    head, *body = KINDS[kind](results, what)
+    lines = [head, ["---"] * len(head), *body]
+    return "\n" + "".join("| " + " | ".join(line).replace("|  |", "| |").replace("|  |", "| |") + " |\n" for line in lines)
+
+
+def value(results, what):
+    return cell_of(results, what, results.one(what, what.get("where", {})), what)
+
+
+# --- pages ----------------------------------------------------------------------------------------------------------------------
+
+def pages(root):
+    return sorted(path for pattern in PAGES for path in pathlib.Path(root).glob(pattern))
+
+
+def without_code(text):
+    """The text with its code blocks blanked, so that places stay where they are."""
+    return FENCE.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+
+
+def marks(text):
+    """Marked places outside code blocks: kind, name, where their content begins and ends."""
+    plain = without_code(text)
+    found = [(match[1], match[2], match.start(3), match.end(3)) for match in MARK.finditer(plain)]
+    if len(found) != len(OPENING.findall(plain)):
+        line = plain[:next(m.start() for m in OPENING.finditer(plain) if m.end() not in {f[2] for f in found})].count("\n") + 1
+        raise Mistake(f"line {line}: a mark without its <!-- end -->")
+    if len(found) != plain.count("<!-- end -->"):
+        raise Mistake("an <!-- end --> without its mark")
+    return found
+
+
+def shown(results, kind, name):
+    """What a mark should hold."""
+    described = results.described(kind)
+    if kind == "value" and name in results.figures:
+        return results.figures[name]
+    if name not in described:
+        raise Mistake(f"no {kind} `{name}` in {DESCRIPTION}{nearest(name, [*described, *(results.figures if kind == 'value' else [])])}")
+    try:
+        return (table if kind == "table" else value)(results, described[name])
+    except KeyError as error:
+        raise Mistake(f"{DESCRIPTION}: {kind}.{name} has no key {error}")
+    except Mistake as mistake:
+        raise Mistake(f"{kind}.{name}: {mistake}")
+
+
+def rewritten(results, text):
+    """The page with every marked place as its results say, and the places that differ: line, name, what stands there, what should."""
+    pieces, end, differences = [], 0, []
+    for kind, name, first, last in marks(text):
+        try:
+            wanted = shown(results, kind, name)
+        except Mistake as mistake:
+            raise Mistake(f"line {text[:first].count(chr(10)) + 1}: {mistake}")
+        if wanted != text[first:last]:
+            differences.append((text[:first].count("\n") + 1, name, *first_difference(text[first:last], wanted)))
+        pieces += [text[end:first], wanted]
+        end = last
+    return "".join(pieces) + text[end:], differences
+
+
+def first_difference(stands, should):
+    if "\n" not in stands + should:
+        return stands, should
+    one, other = stands.splitlines() + [""], should.splitlines() + [""]
+    return next(((a, b) for a, b in zip(one, other) if a != b), (f"{len(one) - 1} lines", f"{len(other) - 1} lines"))
+
+
+def write(results, check):
+    """Rewrites the pages, or says where they differ. Returns the number of mistakes."""
+    bad = 0
+    for path in pages(results.root):
+        page, text = path.relative_to(results.root), path.read_text()
+        try:
+            new, differences = rewritten(results, text)
+        except Mistake as mistake:
+            print(f"{page}: {mistake}", file=sys.stderr)
+            bad += 1
+            continue
+        if check:
+            for line, name, stands, should in differences:
+                print(f"{page}:{line}: {name}\n  stands there: {stands}\n  should be:    {should}", file=sys.stderr)
+            bad += len(differences)
+        elif differences:
+            path.write_text(new)
+            print(f"{page}: {len(differences)} places")
+    return bad
+
+
+# --- taking over a study --------------------------------------------------------------------------------------------------------
+
+def rounded(text):
+    try:
+        return f"{float(text):.6g}"
+    except ValueError:
+        return text
+
+
+def take(root, folder, target, machine):
+    """Cuts study.csv to what results need: the axes, errors, Pareto fronts, CPU time, ledgers and metrics, in six digits."""
+    source = pathlib.Path(folder) / "study.csv"
+    try:
+        rows = [row for row in csv.DictReader(source.open()) if row["status"] != "not run"]
+    except OSError as error:
+        raise Mistake(f"{source}: {error.strerror}; it is what `undex study` leaves")
+    if not rows:
+        raise Mistake(f"{source}: no run of it has ended")
+    columns = [name for name in rows[0] if name not in BOOKKEEPING and not name.startswith("exact_") and any(row[name] for row in rows)]
+    target = pathlib.Path(root) / target
+    with target.open("w", newline="") as out:
+        out.write(provenance(root, folder, rows, source, machine))
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([rounded(row[name]) for name in columns] for row in rows)
+    print(f"{target}: {len(rows)} runs, {len(columns)} columns")
+
+
+def provenance(root, folder, rows, source, machine):
+    programs = sorted({re.sub(r" \([^)]*\)", "", row["program"]) for row in rows if row["program"]})
+    date = datetime.date.fromtimestamp(source.stat().st_mtime).isoformat()
+    return f"# undex study {study_file(root, folder)}; {' and '.join(programs)}, numerics {numerics(root)}; {machine}; {date}\n"
+
+
+def study_file(root, folder):
+    """The study of cases/ whose text is the copy in the folder."""
+    copy = (pathlib.Path(folder) / "study.toml").read_bytes()
+    found = [path for path in pathlib.Path(root).glob("cases/*/*.toml") if path.read_bytes() == copy]
+    if not found:
+        raise Mistake(f"{folder}/study.toml is no study of cases/: run the shipped one again")
+    return found[0].relative_to(root).as_posix()
+
+
+def numerics(root):
+    match = re.search(r"numerics_version = (\d+)", (pathlib.Path(root) / "app/version.cpp").read_text())
+    return match[1] if match else "unknown"
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--root", default=pathlib.Path(__file__).resolve().parent.parent, help="the project's folder")
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("write", help="rewrites every marked table and value")
+    commands.add_parser("check", help="says where a page differs from its results")
+    taking = commands.add_parser("take", help="cuts a study's table to a file of results")
+    taking.add_argument("study", help="the folder that undex study wrote")
+    taking.add_argument("file", help="docs/results/NAME.csv")
+    taking.add_argument("--machine", default="AMD EPYC, 2 cores, shared", help="named in the provenance")
+    chosen = parser.parse_args(arguments)
+    try:
+        if chosen.command == "take":
+            take(chosen.root, chosen.study, chosen.file, chosen.machine)
+            return 0
+        return 1 if write(Results(chosen.root), chosen.command == "check") else 0
+    except Mistake as mistake:
+        print(mistake, file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
