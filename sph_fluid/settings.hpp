@@ -122,7 +122,7 @@ void describe(Lattice& lattice, Visit&& visit) {
         {.name = "settle",
          .meaning = "particles are moved before the start until uniform pressure leaves them at rest: rings "
                     "beside their axis, round and unfitted walls, jitter. A lattice that is at rest stays as it is: "
-                    "[equations](../theory/equations.md#settled-starts)"});
+                    "[equations](../theory/equations.md#9-start-of-the-particles)"});
 }
 
 /// State of one particle at the start.
