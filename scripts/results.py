@@ -105,23 +105,32 @@ def number(text, place):
         raise Mistake(f"{place}: `{text}` is not a number")
 
 
-def cell_of(results, what, row, quantity):
-    """The text of one quantity of one row; nothing where the run has no such metric."""
-    column = quantity["column"]
-    if column not in row:
-        raise Mistake(f"{what['file']}: no column `{column}`{nearest(column, row)}")
-    if row[column] == "" or "format" not in quantity:
-        return row[column]
-    value = number(row[column], what["file"]) * quantity.get("scale", 1)
+def cell_of(results, what, row, quantity, line=""):
+    """The text of one quantity of one row; nothing where the run has no such metric. `{}` in a column's name is the line's."""
+    text = entry(what["file"], row, quantity["column"].replace("{}", line))
+    if text == "" or "format" not in quantity:
+        return text
+    value = number(text, what["file"]) * quantity.get("scale", 1)
     if "reference" in quantity:
-        value = difference(value, reference_of(results, quantity), quantity.get("difference", "percent"))
+        reference = reference_of(results, what, row, quantity, line)
+        value = difference(value, reference, quantity.get("difference", "percent"))
     return formatted(value, quantity["format"])
 
 
-def reference_of(results, quantity):
+def entry(file, row, column):
+    if column not in row:
+        raise Mistake(f"{file}: no column `{column}`{nearest(column, row)}")
+    return row[column]
+
+
+def reference_of(results, what, row, quantity, line):
+    """Of another file's row, or of the same row where the reference names no file."""
     there = quantity["reference"]
-    row = results.one(there, there.get("where", {}))
-    return number(row[there["column"]], there["file"]) * there.get("scale", 1)
+    if "file" in there:
+        row = results.one(there, there.get("where", {}))
+    file = there.get("file", what["file"])
+    default = 1 if "file" in there else quantity.get("scale", 1)
+    return number(entry(file, row, there["column"].replace("{}", line)), file) * there.get("scale", default)
 
 
 def difference(value, reference, kind):
@@ -136,7 +145,7 @@ def formatted(value, form):
     """Of a printf format, or of `2 digits` that count."""
     match = re.fullmatch(r"(\d+) digits", form)
     if not match:
-        return form % (0.0 if float("%.12g" % value) == 0 else value)
+        return re.sub(r"^-(0(?:\.0*)?(?:e\+00)?)(?![\d.e])", "+\\1" if "+" in form else "\\1", form % value)  # no -0.0
     digits = int(match[1])
     if value == 0:
         return "0"
@@ -146,11 +155,15 @@ def formatted(value, form):
 # --- tables ---------------------------------------------------------------------------------------------------------------------
 
 def table_of_rows(results, what):
-    """A row of the file a line: all of its columns, or those that are described."""
+    """A row of the file a line: all of its columns, or those that are described. Of each row several lines where `lines` has names."""
     rows = results.select(what, what.get("where", {}))
     columns = what.get("columns") or [{"head": name, "column": name} for name in rows[0]]
-    return [[column["head"] for column in columns],
-            *([cell_of(results, what, row, column) for column in columns] for row in rows)]
+    if "lines" not in what:
+        return [[column["head"] for column in columns],
+                *([cell_of(results, what, row, column) for column in columns] for row in rows)]
+    return [[what.get("head", ""), *(column["head"] for column in columns)],
+            *([line["head"], *(cell_of(results, what, row, column, line["name"]) for column in columns)]
+              for row in rows for line in what["lines"])]
 
 
 def table_across(results, what):
@@ -248,6 +261,12 @@ def marks(text):
     return found
 
 
+def inherited(described, name):
+    """What is described under a name, over what it is like."""
+    what = described[name]
+    return {**inherited(described, what["like"]), **what} if "like" in what else what
+
+
 def shown(results, kind, name):
     """What a mark should hold."""
     described = results.described(kind)
@@ -256,7 +275,7 @@ def shown(results, kind, name):
     if name not in described:
         raise Mistake(f"no {kind} `{name}` in {DESCRIPTION}{nearest(name, [*described, *(results.figures if kind == 'value' else [])])}")
     try:
-        return (table if kind == "table" else value)(results, described[name])
+        return (table if kind == "table" else value)(results, inherited(described, name))
     except KeyError as error:
         raise Mistake(f"{DESCRIPTION}: {kind}.{name} has no key {error}")
     except Mistake as mistake:
@@ -325,9 +344,9 @@ def take(root, folder, target, machine):
     if not rows:
         raise Mistake(f"{source}: no run of it has ended")
     columns = [name for name in rows[0] if name not in BOOKKEEPING and not name.startswith("exact_") and any(row[name] for row in rows)]
-    target = pathlib.Path(root) / target
+    target, origin = pathlib.Path(root) / target, provenance(root, folder, rows, source, machine)
     with target.open("w", newline="") as out:
-        out.write(provenance(root, folder, rows, source, machine))
+        out.write(origin)
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows([rounded(row[name]) for name in columns] for row in rows)
