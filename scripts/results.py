@@ -7,7 +7,7 @@
 
 docs/results/results.toml describes what each mark shows; docs/results/*.csv holds the figures. Standard library only.
 """
-import argparse, csv, datetime, difflib, functools, math, pathlib, re, sys, tomllib
+import argparse, csv, datetime, difflib, functools, json, math, pathlib, re, sys, tomllib
 
 DESCRIPTION = "docs/results/results.toml"
 PAGES = ("README.md", "docs/**/*.md", "cases/*/README.md")
@@ -107,6 +107,8 @@ def number(text, place):
 
 def cell_of(results, what, row, quantity, line=""):
     """The text of one quantity of one row; nothing where the run has no such metric. `{}` in a column's name is the line's."""
+    if "largest" in quantity:
+        return max((cell_of(results, what, row, one) for one in spread(quantity["largest"])), key=magnitude)
     text = entry(what["file"], row, quantity["column"].replace("{}", line))
     if text == "" or "format" not in quantity:
         return text
@@ -115,6 +117,17 @@ def cell_of(results, what, row, quantity, line=""):
         reference = reference_of(results, what, row, quantity, line)
         value = difference(value, reference, quantity.get("difference", "percent"))
     return formatted(value, quantity["format"])
+
+
+def spread(each):
+    """The same quantity for each of its names, which stand for `{}`."""
+    return [json.loads(json.dumps({key: value for key, value in each.items() if key != "names"}).replace("{}", name))
+            for name in each["names"]]
+
+
+def magnitude(text):
+    match = re.search(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", text)
+    return float(match[0]) if match else -1.0
 
 
 def entry(file, row, column):
@@ -157,7 +170,8 @@ def formatted(value, form):
 def table_of_rows(results, what):
     """A row of the file a line: all of its columns, or those that are described. Of each row several lines where `lines` has names."""
     rows = results.select(what, what.get("where", {}))
-    columns = what.get("columns") or [{"head": name, "column": name} for name in rows[0]]
+    columns = what.get("columns", []) + (spread(what["each"]) if "each" in what else []) + what.get("then", [])
+    columns = columns or [{"head": name, "column": name} for name in rows[0]]
     if "lines" not in what:
         return [[column["head"] for column in columns],
                 *([cell_of(results, what, row, column) for column in columns] for row in rows)]
@@ -209,7 +223,7 @@ def table_of_metrics(results, what):
     lines = [["", *(run["head"] for run in what["runs"]), *what["sources"]]]
     for reference in references:
         cells = [metric_cell(row.get(reference["metric"], ""), reference, what["sources"]) for row in runs]
-        lines.append([f"{reference['label']} ({reference['unit']})" if reference["unit"] != "-" else reference["label"], *cells,
+        lines.append([f"{reference['label']} ({reference['unit']})" if reference["unit"] not in ("", "-") else reference["label"], *cells,
                       *(reference[source].replace("+-", " ± ") for source in what["sources"])])
     return lines
 
@@ -257,7 +271,7 @@ def marks(text):
     found = [(match[1], match[2], match.start(3), match.end(3)) for match in MARK.finditer(plain)]
     if len(found) != len(OPENING.findall(plain)):
         line = plain[:next(m.start() for m in OPENING.finditer(plain) if m.end() not in {f[2] for f in found})].count("\n") + 1
-        raise Mistake(f"line {line}: a mark without its <!-- end -->")
+        raise Mistake(f"{line}: a mark without its <!-- end -->")
     return found
 
 
@@ -283,18 +297,20 @@ def shown(results, kind, name):
 
 
 def rewritten(results, text):
-    """The page with every marked place as its results say, and the places that differ: line, name, what stands there, what should."""
-    pieces, end, differences = [], 0, []
+    """The page with every marked place as its results say, and what is wrong with it, as texts that begin with the line."""
+    pieces, end, wrong = [], 0, []
     for kind, name, first, last in marks(text):
+        line, stands = text[:first].count("\n") + 1, text[first:last]
         try:
             wanted = shown(results, kind, name)
         except Mistake as mistake:
-            raise Mistake(f"line {text[:first].count(chr(10)) + 1}: {mistake}")
-        if wanted != text[first:last]:
-            differences.append((text[:first].count("\n") + 1, name, *first_difference(text[first:last], wanted)))
+            wanted = stands
+            wrong.append(f"{line}: {mistake}")
+        if wanted != stands:
+            wrong.append("{}: {}\n  stands there: {}\n  should be:    {}".format(line, name, *first_difference(stands, wanted)))
         pieces += [text[end:first], wanted]
         end = last
-    return "".join(pieces) + text[end:], differences
+    return "".join(pieces) + text[end:], wrong
 
 
 def first_difference(stands, should):
@@ -305,23 +321,21 @@ def first_difference(stands, should):
 
 
 def write(results, check):
-    """Rewrites the pages, or says where they differ. Returns the number of mistakes."""
+    """Rewrites the pages, or says where they differ. Returns the number of mistakes that are left."""
     bad = 0
     for path in pages(results.root):
         page, text = path.relative_to(results.root), path.read_text()
         try:
-            new, differences = rewritten(results, text)
+            new, wrong = rewritten(results, text)
         except Mistake as mistake:
-            print(f"{page}: {mistake}", file=sys.stderr)
-            bad += 1
-            continue
-        if check:
-            for line, name, stands, should in differences:
-                print(f"{page}:{line}: {name}\n  stands there: {stands}\n  should be:    {should}", file=sys.stderr)
-            bad += len(differences)
-        elif differences:
+            new, wrong = text, [str(mistake)]
+        if not check and new != text:
             path.write_text(new)
-            print(f"{page}: {len(differences)} places")
+            print(f"{page} written")
+            wrong = rewritten(results, new)[1]
+        for what in wrong:
+            print(f"{page}:{what}", file=sys.stderr)
+        bad += len(wrong)
     return bad
 
 
