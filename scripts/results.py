@@ -352,9 +352,13 @@ def take(root, folder, target, machine):
     """Cuts study.csv to what results need: the axes, errors, Pareto fronts, CPU time, ledgers and metrics, in six digits."""
     source = pathlib.Path(folder) / "study.csv"
     try:
-        rows = [row for row in csv.DictReader(source.open()) if row["status"] != "not run"]
+        table = csv.DictReader(source.open())
+        rows = [row for row in table if row["status"] != "not run"]
     except OSError as error:
         raise Mistake(f"{source}: {error.strerror}; it is what `undex study` leaves")
+    twice = {name for name in table.fieldnames if table.fieldnames.count(name) > 1}
+    if twice:
+        raise Mistake(f"{source}: two columns are called {', '.join(twice)}; give the study's axis another name")
     if not rows:
         raise Mistake(f"{source}: no run of it has ended")
     columns = [name for name in rows[0] if name not in BOOKKEEPING and not name.startswith("exact_") and any(row[name] for row in rows)]
