@@ -12,7 +12,7 @@ import results
 PERCENTAGE = re.compile(r"[+-]?\d[\d.,]*(?: to [+-]?\d[\d.,]*)? ?%")
 TIME = re.compile(r"(?<![\w.^-])\d[\d.,]* (?:s|min|h|seconds?|minutes?|hours?)\b(?!/)")
 NUMBER = re.compile(r"^[~<>+*-]*\d[\d.,]*(?:e[+-]?\d+)?\*?(?: ?(?:%|[A-Za-z^/0-9]{1,7}))?(?:[ ,/;].*)?$")
-GENERATED = re.compile(r"<!-- tables: .*?<!-- end -->", re.S)  # by `undex keys`, of the program itself
+GENERATED = re.compile(r"<!-- tables?: .*?<!-- end -->", re.S)  # by `undex keys`, of the program itself
 RULE = re.compile(r"^\|[-:| ]+\|?$")
 
 
