@@ -339,6 +339,16 @@ def write(results, check):
     return bad
 
 
+def shown_nowhere(results):
+    """Names that are described, and files of results, that no page shows."""
+    seen = {(kind, name) for path in pages(results.root) for kind, name, _, _ in marks(path.read_text())}
+    seen |= {(kind, what.get("like")) for kind in ("table", "value") for what in results.described(kind).values()}
+    names = [f"{kind}.{name}" for kind in ("table", "value") for name in results.described(kind) if (kind, name) not in seen]
+    names += [f"figure {name}" for name in results.figures if ("value", name) not in seen]
+    text = (results.root / DESCRIPTION).read_text()
+    return names + [path.name for path in sorted((results.root / DESCRIPTION).parent.glob("*.csv")) if f'"{path.name}"' not in text]
+
+
 # --- taking over a study --------------------------------------------------------------------------------------------------------
 
 def rounded(text):
@@ -406,7 +416,12 @@ def main(arguments=None):
         if chosen.command == "take":
             take(chosen.root, chosen.study, chosen.file, chosen.machine)
             return 0
-        return 1 if write(Results(chosen.root), chosen.command == "check") else 0
+        results = Results(chosen.root)
+        bad = write(results, chosen.command == "check")
+        if chosen.command == "check" and not bad:
+            for name in shown_nowhere(results):
+                print(f"no page shows {name}")
+        return 1 if bad else 0
     except Mistake as mistake:
         print(mistake, file=sys.stderr)
         return 1

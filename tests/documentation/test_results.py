@@ -126,6 +126,10 @@ class Check(Project):
         self.assertEqual((True, ""), self.check())
         self.assertIn("+1.8 %", (self.root / "README.md").read_text())
 
+    def test_what_no_page_shows_is_named(self):
+        self.change("docs/results/figures.csv", "bench.rate", "dead,1\nbench.rate")
+        self.assertEqual((True, "no page shows figure dead\n"), self.check())
+
     def test_mistakes_name_their_remedy(self):
         for name, old, new, words in [
                 ("README.md", "value late", "value lat", "`late` is meant?"),
