@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a page of the documentation has to keep to.   check_pages.py ROOT
 
-Case pages have at most 60 lines. No page names a commit. Links within the project lead somewhere, anchors too. Cells of tables in the
+Case pages have at most 60 lines. No page names a commit, a day or an earlier program. Links within the project lead somewhere, anchors too. Cells of tables in the
 pages of results and cases have at most 60 characters. Exit code 1 where one does not.
 """
 import pathlib, re, sys
@@ -12,6 +12,8 @@ import results
 LINES, CELL = 60, 60
 COMMIT = re.compile(r"\b(?=[0-9a-f]*[a-f])(?=[0-9a-f]*[0-9])[0-9a-f]{7,40}\b")
 NUMBER = re.compile(r"\d+e\d+")
+MONTHS = "January|February|March|April|May|June|July|August|September|October|November|December"
+HISTORY = re.compile(rf"earlier (?:program|scheme|build)|\b(?:{MONTHS}) 20\d\d\b")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 PLAIN = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
@@ -48,6 +50,8 @@ def mistakes(root, path):
         for word in COMMIT.findall(line):
             if not NUMBER.fullmatch(word):
                 yield f"line {number}: {word} looks like a commit"
+        for words in HISTORY.findall(line):
+            yield f"line {number}: `{words}`: a page says what holds; days stand in the files of results"
         if page.startswith(("cases/", "docs/results/")) and line.startswith("|"):
             for cell in PLAIN.sub(r"\1", line).strip("|").split("|"):
                 if len(cell.strip()) > CELL:

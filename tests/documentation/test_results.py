@@ -210,6 +210,7 @@ class Pages(Project):
     def test_mistakes_are_found(self):
         self.assertIn("61 lines", self.found("cases/tube/README.md", "line\n" * 61))
         self.assertIn("looks like a commit", self.found("docs/a.md", "as of 0a1b2c3d\n"))
+        self.assertIn("what holds", self.found("docs/a.md", "Measured on 22 November 2026.\n"))
         self.assertIn("a cell of 70", self.found("docs/results/a.md", "| " + "x" * 70 + " | b |\n"))
         self.assertIn("leads nowhere", self.found("docs/a.md", "[x](b.md)\n"))
         self.assertIn("has this anchor", self.found("docs/a.md", "[x](../README.md#nothing)\n"))
