@@ -108,7 +108,7 @@ def number(text, place):
 def cell_of(results, what, row, quantity, line=""):
     """The text of one quantity of one row; nothing where the run has no such metric. `{}` in a column's name is the line's."""
     if "largest" in quantity:
-        return max((cell_of(results, what, row, one) for one in spread(quantity["largest"])), key=magnitude)
+        return max((cell_of(results, what, row, one) for one in spread(quantity["largest"])), key=magnitude).lstrip("+-")
     text = entry(what["file"], row, quantity["column"].replace("{}", line))
     if text == "" or "format" not in quantity:
         return text
