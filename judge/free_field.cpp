@@ -19,7 +19,7 @@ using output::NamedNumbers;
 using output::Series;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int reference_cells = 400;  // in the charge; cases/free_field/README.md shows how converged that is
+constexpr int reference_cells = 400;  // in the charge; docs/results/free_field.md shows how converged that is
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double most_samples = 1e5;

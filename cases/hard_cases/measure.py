@@ -218,7 +218,7 @@ def against(run, other, limit, what):
     rho_c_u = 1000 * 1500 * 200
     dp = np.abs(f["pressure"][a] - g["pressure"][b]).max() / rho_c_u
     dx = np.abs(f["x"][a] - g["x"][b]).max() / 0.002
-    return [(f"{what}: pressures differ by less than {limit:g} rho c u", dp < limit, f"{dp:.1e}"),
+    return [(f"{what}: pressures within {limit:g} rho c u", dp < limit, f"{dp:.1e}"),
             ("of places, in spacings", dx < limit, f"{dx:.1e}")]
 
 
