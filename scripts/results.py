@@ -212,7 +212,7 @@ def observed_order(what, runs):
     if len(points) < 2:
         return ""
     x, y = (sum(values) / len(points) for values in zip(*points))
-    return f"{sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points):.1f}"
+    return formatted(sum((a - x) * (b - y) for a, b in points) / sum((a - x) ** 2 for a, _ in points), "%.1f")
 
 
 def table_of_metrics(results, what):
