@@ -228,6 +228,12 @@ def table_of_metrics(results, what):
     return lines
 
 
+def table_of_texts(results, what):
+    """Lines as they are written; `{name}` in a cell is the value of that name."""
+    fill = lambda cell: re.sub(r"\{([\w.]+)\}", lambda match: shown(results, "value", match[1]), cell)
+    return [what["head"], *([fill(cell) for cell in line] for line in what["lines"])]
+
+
 def metric_cell(text, reference, sources):
     """With as many decimals as the first source has; three digits where it says nothing."""
     if not text:
@@ -237,7 +243,7 @@ def metric_cell(text, reference, sources):
     return f"{value:.{len(known.split('+-')[0].partition('.')[2])}f}" if known else formatted(value, "3 digits")
 
 
-KINDS = {"rows": table_of_rows, "across": table_across, "metrics": table_of_metrics}
+KINDS = {"rows": table_of_rows, "across": table_across, "metrics": table_of_metrics, "texts": table_of_texts}
 
 
 def table(results, what):
@@ -343,6 +349,8 @@ def shown_nowhere(results):
     """Names that are described, and files of results, that no page shows."""
     seen = {(kind, name) for path in pages(results.root) for kind, name, _, _ in marks(path.read_text())}
     seen |= {(kind, what.get("like")) for kind in ("table", "value") for what in results.described(kind).values()}
+    seen |= {("value", name) for what in results.described("table").values() if what.get("kind") == "texts"
+             for line in what["lines"] for cell in line for name in re.findall(r"\{([\w.]+)\}", cell)}
     names = [f"{kind}.{name}" for kind in ("table", "value") for name in results.described(kind) if (kind, name) not in seen]
     names += [f"figure {name}" for name in results.figures if ("value", name) not in seen]
     text = (results.root / DESCRIPTION).read_text()

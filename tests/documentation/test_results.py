@@ -33,6 +33,11 @@ column = "late_m"
 format = "%+.1f %%"
 reference = {file = "cases/tube/reference.csv", where = {metric = "late_m"}, column = "converged", scale = 1e-3}
 
+[table.texts]
+kind = "texts"
+head = ["case", "error"]
+lines = [["tube", "{late} late"]]
+
 [[declared]]
 page = "README.md"
 text = "a duct of 5 %"
@@ -65,6 +70,13 @@ The tube bulges <!-- value late -->+0.2 %<!-- end --> too far in a duct of 5 %, 
 | | 1 mm | converged |
 | --- | --- | --- |
 | late (mm) | 4.41 | 4.40 ± 0.05 |
+
+<!-- end -->
+<!-- table texts -->
+
+| case | error |
+| --- | --- |
+| tube | +0.2 % late |
 
 <!-- end -->
 """
