@@ -278,6 +278,8 @@ def marks(text):
     if len(found) != len(OPENING.findall(plain)):
         line = plain[:next(m.start() for m in OPENING.finditer(plain) if m.end() not in {f[2] for f in found})].count("\n") + 1
         raise Mistake(f"{line}: a mark without its <!-- end -->")
+    for match in re.finditer(r"^ *<!-- value ", plain, re.M):
+        raise Mistake(f"{plain.count(chr(10), 0, match.start()) + 1}: a value begins the line, which Markdown takes for HTML; break the line elsewhere")
     return found
 
 

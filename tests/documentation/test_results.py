@@ -146,6 +146,7 @@ class Check(Project):
         for name, old, new, words in [
                 ("README.md", "value late", "value lat", "`late` is meant?"),
                 ("README.md", "+0.2 %<!-- end -->", "+0.2 %", "without its <!-- end -->"),
+                ("README.md", "bulges <!--", "bulges\n<!--", "break the line elsewhere"),
                 ("docs/results/results.toml", 'column = "late_m"', 'column = "late"', "no column `late`; `late_m` is meant?"),
                 ("docs/results/results.toml", "spacing = 0.001, scheme", "spacing = 0.005, scheme", "no row where"),
                 ("docs/results/results.toml", 'kind = "across"', 'kind = "pivot"', "not `pivot`"),
