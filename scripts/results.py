@@ -223,6 +223,8 @@ def table_of_metrics(results, what):
     lines = [["", *(run["head"] for run in what["runs"]), *what["sources"]]]
     for reference in references:
         cells = [metric_cell(row.get(reference["metric"], ""), reference, what["sources"]) for row in runs]
+        if not any(cells):
+            continue
         lines.append([f"{reference['label']} ({reference['unit']})" if reference["unit"] not in ("", "-") else reference["label"], *cells,
                       *(reference[source].replace("+-", " ± ") for source in what["sources"])])
     return lines
