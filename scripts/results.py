@@ -375,7 +375,7 @@ def take(root, folder, target, machine):
     source = pathlib.Path(folder) / "study.csv"
     try:
         table = csv.DictReader(source.open())
-        rows = [row for row in table if row["status"] != "not run"]
+        rows = [row for row in table if row["status"] not in ("not run", "interrupted", "failed")]
     except OSError as error:
         raise Mistake(f"{source}: {error.strerror}; it is what `undex study` leaves")
     twice = {name for name in table.fieldnames if table.fieldnames.count(name) > 1}
