@@ -203,10 +203,13 @@ def part_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     """What bodies.csv and forces.csv say, a panel a kind of quantity."""
     panels = {name: Panel(("Bodies: " if unit[0] != "N" else "On structures and walls: ") + name, name, unit) for name, unit, _ in _PARTS}
     for number, (label, run) in enumerate(runs):
+        liquids = {body.get("name") for body in run.tables("bodies") if body.get("variable_h") is False}
         for table in (run.bodies, run.forces):
             for column, values in (table or {}).items():
                 owner, _, word = column.rpartition(".")
                 word, axis = component_axis(word)
+                if word == "radius" and owner in liquids:
+                    continue  # a sphere as large as all the water says nothing
                 for name, _, words in _PARTS:
                     if owner and word in words and largest([values]) > 0:
                         text = " ".join(part for part in (owner, word.replace("_", " ") if len(words) > 1 else "", axis,

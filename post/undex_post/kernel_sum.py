@@ -13,7 +13,7 @@ import numpy as np
 
 from .kernels import Kernel
 
-PAIRS_AT_A_TIME = 1_500_000  # bounds the memory of a sum
+PAIRS_AT_A_TIME = 100_000  # small enough for the processor's caches
 
 
 @dataclass(frozen=True)
@@ -58,96 +58,117 @@ class Cloud:
 
 
 @dataclass
-class _Pairs:
-    """Grid cells and particles that see each other: flat index of the cell, index of the particle, W, and the way from cell to
-    particle."""
+class _Windows:
+    """Square windows of cells about some particles: flat indices of the cells in the padded grid and W (n, size, size), numbers of
+    the particles (n,), and the way from cell to particle along both axes."""
     cell: np.ndarray
-    particle: np.ndarray
     weight: np.ndarray
+    particle: np.ndarray
     way: tuple[np.ndarray, np.ndarray]
 
-
-def _pairs(cloud: Cloud, grid: Grid, kernel: Kernel, dimension: int) -> Iterator[_Pairs]:
-    """All pairs, in portions. Particles whose windows are equally wide go together."""
-    reach = np.sqrt(np.maximum((kernel.support * cloud.h) ** 2 - cloud.offset**2, 0.0))
-    place = (cloud.points - np.array(grid.low)) / grid.pixel - 0.5  # in cells; whole numbers are middles
-    half = reach / grid.pixel
-    seen = (reach > 0) & np.all(place + half[:, None] >= 0, axis=1)
-    seen &= (place[:, 0] - half <= grid.columns - 1) & (place[:, 1] - half <= grid.rows - 1)
-    # Widths grow by a factor of sqrt(2), so that there are few groups.
-    width = np.where(seen, np.ceil(2 ** (np.ceil(2 * np.log2(2 * half + 1)) / 2)), 0).astype(int)
-    for size in np.unique(width[seen]):
-        group = np.flatnonzero(width == size)
-        portion = max(1, PAIRS_AT_A_TIME // int(size) ** 2)
-        steps = np.arange(size)
-        for first in range(0, len(group), portion):
-            mine = group[first:first + portion]
-            corner = np.ceil(place[mine] - half[mine, None]).astype(int)
-            column, row = corner[:, 0, None] + steps, corner[:, 1, None] + steps
-            du = (place[mine, 0, None] - column) * grid.pixel
-            dv = (place[mine, 1, None] - row) * grid.pixel
-            square = du[:, None, :] ** 2 + dv[:, :, None] ** 2 + cloud.offset[mine, None, None] ** 2
-            inside = square < (kernel.support * cloud.h[mine, None, None]) ** 2
-            inside &= ((column >= 0) & (column < grid.columns))[:, None, :] & ((row >= 0) & (row < grid.rows))[:, :, None]
-            which, v, u = np.nonzero(inside)
-            particle = mine[which]
-            weight = kernel(np.sqrt(square[inside]), cloud.h[particle], dimension)
-            yield _Pairs(row[which, v] * grid.columns + column[which, u], particle, weight, (du[which, u], dv[which, v]))
+    def add(self, total: "_Total", quantity: np.ndarray, basis: np.ndarray | float = 1.0) -> None:
+        """Adds quantity times W (times a function of the way) of each particle to the cells."""
+        values = self.weight * quantity[self.particle, None, None] * basis
+        total.flat += np.bincount(self.cell.ravel(), values.ravel(), minlength=len(total.flat))
 
 
-def _scattered(pairs: _Pairs, values: np.ndarray, grid: Grid) -> np.ndarray:
-    return np.bincount(pairs.cell, values, minlength=grid.rows * grid.columns)
+class _Total:
+    """A sum on the grid, padded so that no window ends outside."""
+
+    def __init__(self, grid: Grid, pad: int):
+        self._grid, self._pad = grid, pad
+        self.flat = np.zeros((grid.rows + 2 * pad) * (grid.columns + 2 * pad))
+
+    @property
+    def inner(self) -> np.ndarray:
+        pad = self._pad
+        whole = self.flat.reshape(self._grid.rows + 2 * pad, self._grid.columns + 2 * pad)
+        return whole[pad:pad + self._grid.rows, pad:pad + self._grid.columns]
+
+
+class _Scatter:
+    """The windows of all particles that reach the grid, in portions of equal size."""
+
+    def __init__(self, cloud: Cloud, grid: Grid, kernel: Kernel, dimension: int):
+        self._cloud, self._grid, self._kernel, self._dimension = cloud, grid, kernel, dimension
+        reach = np.sqrt(np.maximum((kernel.support * cloud.h) ** 2 - cloud.offset**2, 0.0))
+        self._place = (cloud.points - np.array(grid.low)) / grid.pixel - 0.5  # in cells; whole numbers are middles
+        self._half = reach / grid.pixel
+        seen = (reach > 0) & np.all(self._place + self._half[:, None] >= 0, axis=1)
+        seen &= np.all(self._place - self._half[:, None] <= np.array([grid.columns, grid.rows]) - 1, axis=1)
+        # Sizes grow by steps of a fifth, so that there are few groups.
+        size = np.ceil(1.2 ** np.ceil(np.log(2 * self._half + 1) / np.log(1.2))).astype(int)
+        self._size = np.where(seen, size, 0)
+        self.pad = int(self._size.max(initial=1)) + 1
+
+    def total(self) -> _Total:
+        return _Total(self._grid, self.pad)
+
+    def __iter__(self) -> Iterator[_Windows]:
+        for size in np.unique(self._size[self._size > 0]):
+            group = np.flatnonzero(self._size == size)
+            portion = max(1, PAIRS_AT_A_TIME // int(size) ** 2)
+            for first in range(0, len(group), portion):
+                yield self._windows(group[first:first + portion], np.arange(size))
+
+    def _windows(self, mine: np.ndarray, steps: np.ndarray) -> _Windows:
+        grid, place = self._grid, self._place[mine]
+        corner = np.ceil(place - self._half[mine, None]).astype(int)
+        column, row = corner[:, 0, None] + steps, corner[:, 1, None] + steps
+        du, dv = (place[:, 0, None] - column) * grid.pixel, (place[:, 1, None] - row) * grid.pixel
+        distance = np.sqrt((du**2)[:, None, :] + (dv**2 + self._cloud.offset[mine, None] ** 2)[:, :, None])
+        weight = self._kernel(distance, self._cloud.h[mine, None, None], self._dimension)
+        cell = ((row + self.pad) * (grid.columns + 2 * self.pad))[:, :, None] + (column + self.pad)[:, None, :]
+        return _Windows(cell, weight, mine, (du[:, None, :], dv[:, :, None]))
 
 
 def kernel_sum(cloud: Cloud, quantity: np.ndarray, grid: Grid, kernel: Kernel, dimension: int) -> np.ndarray:
     """Sum of quantity W: with masses the density, with volumes the filling (1 inside, 1/2 on a flat surface)."""
-    total = np.zeros(grid.rows * grid.columns)
-    for pairs in _pairs(cloud, grid, kernel, dimension):
-        total += _scattered(pairs, quantity[pairs.particle] * pairs.weight, grid)
-    return total.reshape(grid.rows, grid.columns)
+    scatter = _Scatter(cloud, grid, kernel, dimension)
+    total = scatter.total()
+    for windows in scatter:
+        windows.add(total, quantity)
+    return total.inner
 
 
 def shepard(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel,
             dimension: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Normalised sums (sum of V f W)/(sum of V W), and the filling, the sum of V W. They reproduce constant fields. Where no
     particle reaches, values are nan."""
-    filling = np.zeros(grid.rows * grid.columns)
-    sums = {name: np.zeros_like(filling) for name in values}
-    for pairs in _pairs(cloud, grid, kernel, dimension):
-        weight = cloud.volume[pairs.particle] * pairs.weight
-        filling += _scattered(pairs, weight, grid)
+    scatter = _Scatter(cloud, grid, kernel, dimension)
+    filling, sums = scatter.total(), {name: scatter.total() for name in values}
+    for windows in scatter:
+        windows.add(filling, cloud.volume)
         for name, total in sums.items():
-            total += _scattered(pairs, weight * values[name][pairs.particle], grid)
-    shape = grid.rows, grid.columns
+            windows.add(total, cloud.volume * values[name])
     with np.errstate(invalid="ignore", divide="ignore"):
-        return {name: (total / filling).reshape(shape) for name, total in sums.items()}, filling.reshape(shape)
+        return {name: total.inner / filling.inner for name, total in sums.items()}, filling.inner
 
 
 def linear(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel,
            dimension: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Moving least squares of first order, and the filling. They reproduce linear fields, also beside surfaces. Where too few
-    particles reach for a slope, the values are Shepard's."""
+    particles reach for a slope, the values are Shepard's. In three dimensions the particles on both sides of the plane are needed."""
     size = 3 if dimension == 2 else 4
-    count = grid.rows * grid.columns
-    moments = np.zeros((size, size, count))
-    sums = {name: np.zeros((size, count)) for name in values}
-    for pairs in _pairs(cloud, grid, kernel, dimension):
-        weight = cloud.volume[pairs.particle] * pairs.weight
-        h = cloud.h[pairs.particle]
-        basis = [np.ones_like(h), pairs.way[0] / h, pairs.way[1] / h, cloud.offset[pairs.particle] / h][:size]
-        for i in range(size):
-            for k in range(i, size):
-                moments[i, k] += _scattered(pairs, weight * basis[i] * basis[k], grid)
-                moments[k, i] = moments[i, k]
-            for name, total in sums.items():
-                total[i] += _scattered(pairs, weight * basis[i] * values[name][pairs.particle], grid)
-    filling = moments[0, 0].copy()
-    matrices = np.moveaxis(moments, 2, 0) / np.maximum(filling, 1e-300)[:, None, None]
+    scatter = _Scatter(cloud, grid, kernel, dimension)
+    moments = {(i, k): scatter.total() for i in range(size) for k in range(i, size)}
+    sums = {name: [scatter.total() for _ in range(size)] for name in values}
+    for windows in scatter:
+        h = cloud.h[windows.particle, None, None]
+        basis = [1.0, windows.way[0] / h, windows.way[1] / h, cloud.offset[windows.particle, None, None] / h][:size]
+        for (i, k), total in moments.items():
+            windows.add(total, cloud.volume, basis[i] * basis[k])
+        for name, totals in sums.items():
+            for i, total in enumerate(totals):
+                windows.add(total, cloud.volume * values[name], basis[i])
+    filling = moments[0, 0].inner
+    matrices = np.empty((*filling.shape, size, size))
+    for (i, k), total in moments.items():
+        matrices[..., i, k] = matrices[..., k, i] = total.inner / np.maximum(filling, 1e-300)
     sound = np.abs(np.linalg.det(matrices)) > 1e-6
-    first = np.zeros((count, size))
-    first[:, 0] = 1.0
-    first[sound] = np.linalg.inv(matrices[sound])[:, 0]
-    shape = grid.rows, grid.columns
+    first = np.zeros((*filling.shape, size))
+    first[..., 0] = 1.0
+    first[sound] = np.linalg.inv(matrices[sound])[..., 0]
     with np.errstate(invalid="ignore", divide="ignore"):
-        fields = {name: ((first * total.T).sum(axis=1) / filling).reshape(shape) for name, total in sums.items()}
-    return fields, filling.reshape(shape)
+        fields = {name: sum(first[..., i] * total.inner for i, total in enumerate(totals)) / filling for name, totals in sums.items()}
+    return fields, filling

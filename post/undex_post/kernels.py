@@ -22,13 +22,14 @@ class Kernel:
 
     def __call__(self, distance: np.ndarray, h: np.ndarray | float, dimension: int) -> np.ndarray:
         """W at those distances [1/m^dimension]."""
-        q = np.asarray(distance) / h
-        return np.where(q < self.support, self.norm(dimension) / h**dimension * self.shape(np.minimum(q, self.support)), 0.0)
+        q = np.minimum(np.asarray(distance) / h, self.support)
+        return self.norm(dimension) / h**dimension * self.shape(q)
 
 
 def _wendland_c2(q: np.ndarray) -> np.ndarray:
     s = 1.0 - 0.5 * q
-    return s**4 * (2.0 * q + 1.0)
+    s *= s
+    return s * s * (2.0 * q + 1.0)
 
 
 def _wendland_c4(q: np.ndarray) -> np.ndarray:

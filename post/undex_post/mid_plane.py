@@ -25,6 +25,13 @@ SOLID_FIELDS = ("plastic_strain", "von_mises", "speed", "pressure", "temperature
 STRUCTURE_FIELDS = ("plastic_strain", "von_mises", "pressure", "temperature")
 
 
+# What each field is called, its unit in SI, and whether small values need finer steps than large ones.
+QUANTITIES = {"pressure": ("pressure", "Pa", True), "void_fraction": ("void fraction", "-", False), "speed": ("speed", "m/s", True),
+              "density": ("density", "kg/m3", False), "energy": ("specific internal energy", "J/kg", True),
+              "plastic_strain": ("plastic strain", "-", True), "von_mises": ("von Mises stress", "Pa", False),
+              "temperature": ("temperature", "K", False), "damage": ("damage", "-", False)}
+
+
 @dataclass
 class Layer:
     """Fields of particles on the grid; closed outlines of where there is material, and the lines where bodies meet."""
@@ -52,12 +59,14 @@ class Frame:
 
 
 class MidPlane:
-    """The section of a run in two or three dimensions, with so many cells at most along its longer side (of the computed part).
-    Raises Missing where the run has no snapshots or one coordinate only."""
+    """The section of a run in two or three dimensions, with so many cells at most along its longer side (of the computed part), and
+    with those of the named fields that the snapshots have. Raises Missing where the run has no snapshots or one coordinate only."""
 
-    def __init__(self, run: Run, cells: int = 320):
+    def __init__(self, run: Run, cells: int = 320, fluid_fields: tuple[str, ...] = FLUID_FIELDS,
+                 solid_fields: tuple[str, ...] = SOLID_FIELDS):
         if run.is_on_a_line:
             raise Missing("the scene has one coordinate: it has profiles and no mid-plane")
+        self._wanted = fluid_fields, solid_fields
         with ExitStack() as opened:
             self._fluid = _open(opened, run.particles)
             self._solids = _open(opened, run.solids)
@@ -115,7 +124,7 @@ class MidPlane:
         body = self._particles.body_of(snapshot)
         volume = self._particles.volume(snapshot)
         h = self._particles.smoothing_length(snapshot, volume)
-        return self._layer(snapshot, body, volume, h, self._particles.kernel, FLUID_FIELDS)
+        return self._layer(snapshot, body, volume, h, self._particles.kernel, self._wanted[0])
 
     def _solid_layer(self, index: int) -> Layer:
         snapshot = self._solids.read(index)
@@ -124,7 +133,7 @@ class MidPlane:
         if self.section.dimension == 3 and "mass" in snapshot and "density" in snapshot:
             volume = snapshot["mass"] / np.maximum(snapshot["density"], 1e-12)
         h = self._solid_eta * np.maximum(volume, 1e-300) ** (1 / self.section.dimension)
-        return self._layer(snapshot, body, volume, h, self._solid_kernel, SOLID_FIELDS)
+        return self._layer(snapshot, body, volume, h, self._solid_kernel, self._wanted[1])
 
     def _layer(self, snapshot: dict[str, np.ndarray], body: np.ndarray, volume: np.ndarray, h: np.ndarray, kernel: Kernel,
                wanted: tuple[str, ...]) -> Layer:
@@ -169,17 +178,17 @@ class MidPlane:
     # ------------------------------------------------------------------------------------------------ outlines
 
     def _contours(self, values: np.ndarray, level: float, closed: bool = False, mask: np.ndarray | None = None) -> list[np.ndarray]:
-        """Lines of that value; closed ones end beyond the edges, and beyond the planes that complete the picture."""
+        """Lines of that value, up to a cell beyond the edges, so that they meet their mirror images; closed ones go round there."""
         import contourpy
 
         u, v = self.grid.middles()
         pixel = self.grid.pixel
-        if closed:
-            values = np.pad(np.pad(values, 1, mode="edge"), 1)
-            u = np.concatenate([u[0] - pixel * np.array([2, 1]), u, u[-1] + pixel * np.array([1, 2])])
-            v = np.concatenate([v[0] - pixel * np.array([2, 1]), v, v[-1] + pixel * np.array([1, 2])])
+        beyond = pixel * np.array([1, 2] if closed else [1])
+        u, v = (np.concatenate([each[0] - beyond[::-1], each, each[-1] + beyond]) for each in (u, v))
+        values = np.pad(values, 1, mode="edge")
+        values = np.pad(values, 1) if closed else values
         if mask is not None:
-            values = np.ma.array(values, mask=mask)
+            values = np.ma.array(values, mask=np.pad(mask, 1, mode="edge"))
         if min(values.shape) < 2:
             return []
         return [simplified(line, 0.05 * pixel) for line in contourpy.contour_generator(u, v, values).lines(level) if len(line) > 3]

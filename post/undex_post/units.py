@@ -13,6 +13,7 @@ _PREFIXED = {"Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
              "J/kg": ((1e6, "MJ/kg"), (1e3, "kJ/kg"), (1.0, "J/kg")),
              "byte": ((1e9, "GB"), (1e6, "MB"), (1e3, "kB"), (1.0, "byte"))}
 _SUFFIXES = (("_kg_m3", "kg/m3"), ("_j_m2", "J/m2"), ("_pa_s", "Pa s"), ("_m_s", "m/s"), ("_pa", "Pa"), ("_m", "m"), ("_s", "s"))
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _POWERS = {"m3": "m³", "m2": "m²", "kg/m3": "kg/m³", "J/m2": "J/m²", "-": "", "": ""}
 
 
@@ -42,7 +43,7 @@ def number(value: float | int | None, digits: int = 4) -> str:
     text = f"{value:.{digits}g}"
     if "e" in text:
         head, _, power = text.partition("e")
-        return f"{head}·10^{int(power)}"
+        return f"{head}·10{str(int(power)).translate(_RAISED)}"
     return text
 
 

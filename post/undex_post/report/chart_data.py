@@ -6,13 +6,13 @@ from .movie import base64_of
 
 
 class ChartData:
-    """The charts of a page in their order; `place` adds one and returns the element that the page's script fills."""
+    """The charts of a page in their order."""
 
     def __init__(self) -> None:
         self.charts: list[dict] = []
 
     def add(self, panel: Panel, several_runs: bool = False) -> int:
-        """Adds a panel and returns its number."""
+        """Adds a panel and returns its number, by which an element of the page names it."""
         scaled = panel.scaled()
         numbers: list[str] = []
         place: dict[bytes, int] = {}
@@ -28,7 +28,9 @@ class ChartData:
         for index, curve in enumerate(scaled.curves):
             thin = thinned(curve) if curve.kind == "line" else curve
             if curve.run is None:
-                style = {"colour": -1, "mark": references}
+                # Beside one run points have colours of their own; lines, and all beside several runs, are grey.
+                own = curve.kind == "points" and not several_runs
+                style = {"colour": 1 + references if own else -1, "mark": references}
                 references += 1
             elif several_runs:
                 style = {"colour": curve.run, "dash": dashes.setdefault(curve.run, 0)}

@@ -4,6 +4,7 @@ import math
 import numpy as np
 
 from ..run import Run
+from ..shapes import NotDrawable, Shape
 from ..units import number, percent, quantity
 
 _DIMENSIONS = {"axisymmetric": "axisymmetric (two coordinates)", "spherical": "spherical (one coordinate)", "plane": "plane (one coordinate)",
@@ -173,7 +174,7 @@ def constants(material: dict) -> list[tuple[str, str]]:
         if isinstance(value, dict):
             found += [(f"{key}: {name}", text) for name, text in constants(value)]
         elif key not in ("name", "source") and isinstance(value, (int, float, str)):
-            found.append((key, number(value, 6) if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)))
+            found.append((key, f"{value:.6g}" if isinstance(value, float) else str(value)))
     return found
 
 
@@ -191,6 +192,7 @@ def resolution(run: Run) -> list[tuple[str, str]]:
         if run.tables("bodies"):
             rows.append(("kernel", f"{_KERNELS.get(kernel, kernel)}, smoothing length {number(eta)} spacings"))
         rows += _charge_rows(run, spacing)
+    rows += _standoffs(run, spacing)
     for table in run.tables("structures"):
         rows += _wall_rows(table, spacing)
     for table in run.tables("solids"):
@@ -217,6 +219,24 @@ def _charge_rows(run: Run, spacing: float) -> list[tuple[str, str]]:
             rows.append((f"across '{name}' when particles take over",
                          f"{number(2 * float(start[0]) / spacing, 3)} spacings, at {quantity(float(run.bodies['time'][0]), 's')}; "
                          "until then it is computed in one dimension"))
+    return rows
+
+
+def _standoffs(run: Run, spacing: float | None) -> list[tuple[str, str]]:
+    """From the surface of each round charge or bubble to structures, solids, obstacles and walls, where these are simple shapes."""
+    rows = []
+    for body in run.tables("bodies"):
+        ball = body.get("shape", {})
+        if body.get("variable_h") is not True or ball.get("type") != "sphere":
+            continue
+        middle = np.resize(np.array(ball.get("center", [0.0, 0.0, 0.0]), dtype=float), (1, 3))
+        for table in [each for key in ("structures", "solids", "obstacles", "walls") for each in run.tables(key)]:
+            try:
+                distance = abs(float(Shape(table.get("shape", {}), run.dimension).level(middle)[0])) - float(ball["radius"])
+            except NotDrawable:
+                continue
+            words = quantity(distance, "m") + (f", {number(distance / spacing, 3)} spacings" if spacing else "")
+            rows.append((f"from '{body.get('name', 'body')}' to '{table.get('name', 'structure')}'", words))
     return rows
 
 

@@ -5,17 +5,12 @@ import zlib
 
 import numpy as np
 
-from ..mid_plane import Frame, Layer, MidPlane, StructureCut
+from ..mid_plane import QUANTITIES, Frame, Layer, MidPlane, StructureCut
 from ..units import scale_for
 
 LEVELS = 254  # 0 stands for "nothing", 1 to 255 for values
 PLACES = 16000  # steps along the picture's longer side
 
-# What each field is called, its unit in SI, and whether small values need finer steps than large ones.
-QUANTITIES = {"pressure": ("pressure", "Pa", True), "void_fraction": ("void fraction", "-", False), "speed": ("speed", "m/s", True),
-              "density": ("density", "kg/m3", False), "energy": ("specific internal energy", "J/kg", True),
-              "plastic_strain": ("plastic strain", "-", True), "von_mises": ("von Mises stress", "Pa", False),
-              "temperature": ("temperature", "K", False), "damage": ("damage", "-", False)}
 FLUID = ("pressure", "void_fraction", "speed")
 SOLID = ("plastic_strain", "von_mises", "speed")
 STRUCTURE = ("plastic_strain", "von_mises")
@@ -35,7 +30,7 @@ def png(pixels: np.ndarray) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", columns, rows, 8, 0, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(filtered, 9)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(filtered, 7)) + chunk(b"IEND", b"")
 
 
 def quantised(values: np.ndarray, fine: bool) -> tuple[np.ndarray, float, float, int]:

@@ -13,8 +13,8 @@ from ..run import Run
 from ..units import number, quantity, scale_for, shorter
 from . import description
 from .chart_data import ChartData
-from .movie import Movie
-from .page import Raw, chips, colour_tables, join, notes, page, table, tag
+from .movie import FLUID, SOLID, Movie
+from .page import Raw, chips, colour_tables, html, join, notes, page, table, tag
 from .results import missing, result_rows
 from .scene_drawing import drawing
 
@@ -201,7 +201,7 @@ class RunReport:
             if run.is_on_a_line:
                 panels = histories.coordinate_panels(run)
                 return join([*head, tag("p", "The scene has one coordinate: profiles at some of the snapshots' times."), *map(self._chart, panels)])
-            with MidPlane(run, cells=320 if len(self.runs) < 3 else 200) as plane:
+            with MidPlane(run, 320 if len(self.runs) < 3 else 200, FLUID, SOLID) as plane:
                 movie = Movie(plane, 150 if len(self.runs) == 1 else 60)
                 said = [f"The section is {plane.section.words}. Fields are the particles' own kernel sums, body by body; white lines are the "
                         "surfaces between bodies. Where there is no material the background shows."]
@@ -215,9 +215,9 @@ class RunReport:
         count = len(movie.data["frames"])
         if count < FEW_FRAMES:
             interval = _interval(run)
-            said.append(f"The run kept {count} snapshot{'s' if count != 1 else ''}. For a smooth animation run it with more: "
-                        f"-P output.field_interval={interval:g}")
-        return join([*head, tag("p", " ".join(said)), tag("div", class_="movie", data_movie=len(self._movies) - 1)])
+            said.append(Raw(f"The run kept {count} snapshot{'s' if count != 1 else ''}. For a smooth animation run it with more: "
+                            + tag("code", f"-P output.field_interval={interval:.0e}".replace("e-0", "e-"))))
+        return join([*head, tag("p", Raw(" ".join(map(html, said)))), tag("div", class_="movie", data_movie=len(self._movies) - 1)])
 
     # ------------------------------------------------------------------------------------------------ curves
 
@@ -240,12 +240,16 @@ class RunReport:
             return tag("p", "The run has no histories: the scene has no probes, or they were not written yet.")
         together = tag("label", tag("input", type="checkbox", id="together", checked=""), "charts over time keep the same range", class_="row")
         hint = "Drag across a chart to zoom, Shift and drag to move, double-click for the whole; the buttons do the same."
-        return join([tag("p", hint, class_="muted only-screen"), tag("div", together, class_="controls"), *map(self._chart, panels)])
+        return join([tag("p", hint, class_="muted only-screen"), tag("div", together, class_="controls"), self._grid(panels)])
+
+    def _grid(self, panels: list[histories.Panel]) -> Raw:
+        """Charts beside each other where the screen is wide."""
+        return tag("div", *map(self._chart, panels), class_="charts")
 
     def _energy(self) -> Raw:
         panels = histories.energy_panels(self._labelled)
         said = self._each(lambda run: notes(description.trust(run)))
-        return join([said, *map(self._chart, panels)]) if panels else join([said, tag("p", "energy.csv is missing.")])
+        return join([said, self._grid(panels) if panels else tag("p", "energy.csv is missing.")])
 
     def _steps(self) -> Raw:
         parts = [self._each(self._cost_of)]
@@ -263,7 +267,7 @@ class RunReport:
         if steps and end:
             said.append(f"{steps:,} steps, {quantity(end / steps, 's')} each on average"
                         + (f", with {summary['fluid_substeps']:,} substeps of the fluid's fast bodies." if summary.get("fluid_substeps") else "."))
-        said += _limits(summary)
+        said.append("What set each step is printed by undex run -v.")
         updates, cpu = summary.get("particle_updates"), summary.get("cpu_time_s")
         if updates and cpu:
             said.append(f"{description.duration(summary.get('wall_time_s', 0.0))} of wall time and {description.duration(cpu)} of CPU time on "
@@ -328,15 +332,6 @@ def _differing_settings(runs: list[Run]) -> list[list[str]]:
     differing = [key for key in keys if len({each.get(key) for each in every}) > 1
                  and not key.startswith(("title", "name", "output.", "comparison.reference")) and not key.endswith((".source", ".name"))]
     return [[key, *(shorter(each.get(key, "–"), 60) for each in every)] for key in differing[:40]]
-
-
-def _limits(summary: dict) -> list[str]:
-    """What set the step, where the record says so."""
-    counts = summary.get("step_set_by")
-    if not isinstance(counts, dict) or not counts:
-        return ["What set each step is not in the record; `undex run -v` prints it step by step."]
-    total = sum(counts.values()) or 1
-    return ["The step was set by " + ", ".join(f"{name} ({100 * count / total:.0f} %)" for name, count in sorted(counts.items(), key=lambda each: -each[1])) + "."]
 
 
 def _interval(run: Run) -> float:

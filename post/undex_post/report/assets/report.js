@@ -45,6 +45,7 @@
     context.beginPath();
     context.strokeStyle = colour;
     context.lineWidth = 1.6;
+    context.setLineDash([]);
     if (shape === 0) context.arc(x, y, size, 0, 2 * Math.PI);
     else if (shape === 1) context.rect(x - size, y - size, 2 * size, 2 * size);
     else if (shape === 2) { context.moveTo(x, y - size); context.lineTo(x + size, y + size); context.lineTo(x - size, y + size); context.closePath(); }
@@ -112,7 +113,7 @@
       this.data.series.forEach((series, i) => {
         each["s" + i] = {color: colourOf(series), strokePattern: dashOf(series), strokeWidth: series.colour < 0 ? 1.4 : 1.8};
         if (series.kind === "points") {
-          const mark = (graph, name, context, x, y, colour) => drawMark(context, (series.mark || 0) % 6, x, y, colour, series.colour < 0 ? 4 : 1.2);
+          const mark = (graph, name, context, x, y, colour) => drawMark(context, (series.mark || 0) % 6, x, y, colour, "mark" in series ? 4 : 1.2);
           Object.assign(each["s" + i], {strokeWidth: 0, drawPoints: true, pointSize: 4, drawPointCallback: mark, drawHighlightPointCallback: mark});
         }
       });
@@ -198,7 +199,7 @@
       Object.assign(this, {host, data, index: 0, cache: [], timer: 0});
       this.ranges = Object.fromEntries(data.quantities.map((each) => [each.key, [0, each.top]]));
       this.build();
-      this.resizer = new ResizeObserver(() => this.draw());
+      this.resizer = new ResizeObserver(() => requestAnimationFrame(() => { if (this.stage.clientWidth !== this.drawnWidth) this.draw(); }));
       this.resizer.observe(this.stage);
       redraws.push(() => this.draw());
       this.choose();
@@ -310,7 +311,7 @@
     view(width) {
       const [left, bottom, right, top] = this.data.box, [across, up] = this.data.mirror;
       const extent = {left: across ? -right : left, right, bottom: up ? -top : bottom, top};
-      const wide = extent.right - extent.left, high = extent.top - extent.bottom, gap = {left: 44, bottom: 34, right: 10, top: 10};
+      const wide = extent.right - extent.left, high = extent.top - extent.bottom, gap = {left: 44, bottom: 36, right: 10, top: 26};
       const scale = Math.min((width - gap.left - gap.right) / wide, Math.max(140, 0.75 * (window.innerHeight || 800)) / high);
       const x0 = gap.left + (width - gap.left - gap.right - scale * wide) / 2;
       return {...extent, scale, x0, y0: gap.top, height: gap.top + scale * high + gap.bottom, x: (u) => x0 + (u - extent.left) * scale, y: (v) => gap.top + (extent.top - v) * scale};
@@ -325,7 +326,7 @@
       const turn = (this.turn = (this.turn || 0) + 1), index = this.index, frame = this.data.frames[index];
       const [fluid, solids] = await Promise.all([this.planes(index, "fluid"), this.planes(index, "solids")]);
       if (turn !== this.turn) return;  // a later call is under way
-      const width = this.stage.clientWidth || 600, view = (this.last = this.view(width));
+      const width = (this.drawnWidth = this.stage.clientWidth || 600), view = (this.last = this.view(width));
       const [context] = sized(this.canvas, view.height);
       const layers = [];
       if (fluid) layers.push(["fluid", fluid, this.field.value]);
@@ -446,7 +447,7 @@
         context.fillText(shown(u), x, bottom + 6);
       }
       context.textAlign = "right";
-      context.fillText(`${right} [mm]`, view.x(view.right), bottom + 20);
+      context.fillText(`${right} [mm] →`, view.x(view.right), bottom + 20);
       context.textBaseline = "middle";
       for (const v of ticks(1e3 * view.bottom, 1e3 * view.top, Math.max(2, ((view.top - view.bottom) * view.scale) / 55))) {
         const y = view.y(1e-3 * v);
@@ -454,7 +455,7 @@
         context.fillText(shown(v), left - 7, y);
       }
       context.textAlign = "left";
-      context.fillText(`↑ ${up} [mm]`, 4, bottom + 26);
+      context.fillText(`↑ ${up} [mm]`, 8, 13);
     }
     drawBar(canvas, quantity, range, map) {
       const [context, width] = sized(canvas, 50), inner = width - 24;
