@@ -203,13 +203,14 @@ class MidPlane:
     # ------------------------------------------------------------------------------------------------ extent
 
     def _extent(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where matter is at first, and later as far as that is at most half as large again; a few stray particles do not count."""
+        """Where matter is at first, and later up to as far again as it is large (solids alone twice that); a few stray
+        particles do not count."""
         indices = sorted({0, len(self.times) // 2, len(self.times) - 1})
         places = [self._places(index) for index in indices]
         low, high = np.full(3, np.inf), np.full(3, -np.inf)
         if len(places[0]):
             low, high = places[0].min(axis=0), places[0].max(axis=0)
-            reach = 0.3 * (high - low)
+            reach = (1.0 if self._fluid else 2.0) * float(np.max(high - low))
             for later in places[1:]:
                 low = np.minimum(low, np.maximum(np.quantile(later, 0.002, axis=0), low - reach))
                 high = np.maximum(high, np.minimum(np.quantile(later, 0.998, axis=0), high + reach))

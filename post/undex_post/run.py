@@ -11,6 +11,13 @@ from .snapshots import MeshSnapshots, ParticleSnapshots, structure_indices
 from .tables import Columns, ReferenceTable, read_columns, read_reference_table
 
 AXES = "xyz"
+_NUMBERS = ("time_s", "fluid_substeps", "steps", "wall_time_s", "cpu_time_s", "threads", "particles", "wall_particles", "cells",
+            "particle_updates", "neighbour_interactions", "peak_memory_bytes", "solver_memory_bytes", "mass_error", "momentum_error",
+            "angular_momentum_error", "energy_error", "interface_impulse_error", "interface_energy_error")
+_KINDS = {**{name: (int, float) for name in _NUMBERS},
+          **{name: (str,) for name in ("scene", "status", "message", "program")},
+          **{name: (list,) for name in ("warnings", "bubbles", "structures", "obstacles")},
+          **{name: (dict,) for name in ("largest", "clamps", "passes", "metrics", "missing")}}
 
 
 class Run:
@@ -25,7 +32,7 @@ class Run:
         self.notes: list[str] = []
         if not self.folder.is_dir():
             raise Missing(f"{folder}: no such folder; give the output folder of a run (undex run ... -o DIR)")
-        self.summary = self._read_json(self.folder / "summary.json")
+        self.summary = self._read_summary(self.folder / "summary.json")
         self.scene, self.scene_text = self._read_scene()
         every = self._tables("history")
         self.one_dimensional = {name.removesuffix("_1d"): columns for name, columns in every.items()
@@ -99,7 +106,7 @@ class Run:
     def reference(self) -> ReferenceTable | None:
         """The table of metrics that the scene compares with, where its file is still there."""
         path = self.setting("comparison.reference")
-        if not isinstance(path, str):
+        if not isinstance(path, str) or not path:
             return None
         try:
             return read_reference_table(Path(path))
@@ -151,15 +158,24 @@ class Run:
 
     # ------------------------------------------------------------------------------------------------ reading
 
-    def _read_json(self, path: Path) -> dict:
+    def _read_summary(self, path: Path) -> dict:
+        """The record, without what is not of the kind that it should be."""
         if not path.is_file():
             return {}
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
-            return found if isinstance(found, dict) else {}
         except (OSError, ValueError) as error:
             self.notes.append(f"{path.name} cannot be read: {error}.")
             return {}
+        if not isinstance(found, dict):
+            self.notes.append(f"{path.name} is not a run's record.")
+            return {}
+        sound = {name: value for name, value in found.items()
+                 if value is not None and not isinstance(value, bool) and isinstance(value, _KINDS.get(name, object))}
+        wrong = [name for name, value in found.items() if name not in sound and value is not None]
+        if wrong:
+            self.notes.append(f"Left out of {path.name}, as not of the kind that they should be: {', '.join(wrong)}.")
+        return sound
 
     def _read_scene(self) -> tuple[dict, str]:
         path = self.folder / "resolved.toml"

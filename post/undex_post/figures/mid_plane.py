@@ -43,7 +43,7 @@ def mid_plane_figure(run: Run, wanted: list[float]) -> Figure | None:
             void = frame.fluid.fields.get("void_fraction", np.zeros_like(pressure))
             wet = np.isfinite(pressure) & (void <= CAVITATED)
             top = max(float(np.quantile(pressure[wet], 0.995)) if wet.any() else 1.0, 1.0)
-            shown = _field(axis, plane, frame.fluid, np.where(void <= CAVITATED, pressure, np.nan), 0, top, "viridis", under="white")
+            shown = _field(axis, plane, frame.fluid, pressure, 0, top, "viridis", white=np.nan_to_num(void))
             _matter(axis, plane, frame)
             _frame(axis, plane, frame.time)
             figure.colorbar(shown, ax=axis, aspect=18, pad=0.01).ax.tick_params(labelsize=7)
@@ -109,8 +109,9 @@ def _mirrors(plane: MidPlane) -> list[np.ndarray]:
     return [np.array([a, b]) for a in ((1, -1) if across else (1,)) for b in ((1, -1) if up else (1,))]
 
 
-def _field(axis: Axes, plane: MidPlane, layer: Layer, values: np.ndarray, low: float, high: float, colours: str, under: str | None = None):
-    """The field within the outlines of its material, and the surfaces between bodies."""
+def _field(axis: Axes, plane: MidPlane, layer: Layer, values: np.ndarray, low: float, high: float, colours: str,
+           white: np.ndarray | None = None):
+    """The field within the outlines of its material, white where `white` is above CAVITATED, and the surfaces between bodies."""
     shown = None
     (left, bottom), (right, top) = plane.grid.low, plane.grid.high
     for factors in _mirrors(plane):
@@ -118,11 +119,18 @@ def _field(axis: Axes, plane: MidPlane, layer: Layer, values: np.ndarray, low: f
         if not outlines:
             continue
         codes = [code for line in outlines for code in [Outline.MOVETO] + [Outline.LINETO] * (len(line) - 2) + [Outline.CLOSEPOLY]]
-        patch = PathPatch(Outline(np.concatenate(outlines), codes), facecolor=under or "none", edgecolor="none", transform=axis.transData)
+        patch = PathPatch(Outline(np.concatenate(outlines), codes), facecolor="none", edgecolor="none", transform=axis.transData)
         axis.add_patch(patch)
         extent = [1e3 * factors[0] * left, 1e3 * factors[0] * right, 1e3 * factors[1] * bottom, 1e3 * factors[1] * top]
-        shown = axis.imshow(values, extent=extent, origin="lower", vmin=low, vmax=high, cmap=colours, interpolation="nearest", zorder=1.5)
+        shown = axis.imshow(np.nan_to_num(values), extent=extent, origin="lower", vmin=low, vmax=high, cmap=colours, interpolation="bilinear",
+                            zorder=1.5)
         shown.set_clip_path(patch)
+        if white is not None and (white > CAVITATED).any():
+            # Up to a cell beyond the edges, so that no seam shows where images meet.
+            u, v = (np.concatenate([each[:1] - plane.grid.pixel, each, each[-1:] + plane.grid.pixel]) for each in plane.grid.middles())
+            holes = axis.contourf(1e3 * factors[0] * u, 1e3 * factors[1] * v, np.pad(white, 1, mode="edge"), levels=[CAVITATED, 2.0], colors="white", zorder=1.6)
+            for collection in holes.collections:
+                collection.set_clip_path(patch)
     lines = [1e3 * factors * line for line in layer.interfaces for factors in _mirrors(plane)]
     axis.add_collection(LineCollection(lines, colors="0.1", linewidths=1.3, zorder=3))
     axis.add_collection(LineCollection(lines, colors="white", linewidths=0.7, zorder=3))

@@ -5,8 +5,8 @@ from html import escape
 
 from ..units import number
 
-WIDTH, HEIGHT = 660.0, 440.0
-LEFT, RIGHT, TOP, BOTTOM = 72.0, 20.0, 14.0, 48.0
+WIDTH, HEIGHT = 460.0, 330.0
+LEFT, RIGHT, TOP, BOTTOM = 62.0, 14.0, 12.0, 44.0
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8a6d00", "#7a7a7a"]
 DASHES = ["", "8 4", "2 3", "10 3 2 3"]
 
@@ -65,7 +65,7 @@ class LogChart:
             parts.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>'
                          f'<text class="tick" x="{LEFT - 7}" y="{y + 4:.1f}" text-anchor="end">{number(value, 2)}</text>')
         parts.append(f'<text x="{WIDTH - RIGHT}" y="{HEIGHT - 10}" text-anchor="end">{escape(self.x_label)}</text>'
-                     f'<text transform="translate(14 {TOP + 4}) rotate(-90)" text-anchor="end">{escape(self.y_label)}</text>')
+                     f'<text transform="translate(12 {TOP + 4}) rotate(-90)" text-anchor="end">{escape(self.y_label)}</text>')
         return parts
 
     def _front(self) -> list[str]:
@@ -88,7 +88,7 @@ class LogChart:
             if ends[0][1] < 10 ** self._y[0]:  # cut where the chart ends
                 x1, y1 = self._at(coarse * (10 ** self._y[0] / low) ** (1 / order), 10 ** self._y[0])
             parts.append(f'<path d="M{x1:.1f} {y1:.1f} L{x2:.1f} {y2:.1f}" stroke="#888" stroke-dasharray="4 3" fill="none"/>'
-                         f'<text class="tick" x="{x2 - 6:.1f}" y="{y2 + 14:.1f}" text-anchor="end">order {order}</text>')
+                         f'<text class="tick" x="{(x1 + x2) / 2 + 5:.1f}" y="{(y1 + y2) / 2 + 13:.1f}">order {order}</text>')
         return parts
 
     def _line(self, line: Line) -> list[str]:

@@ -18,6 +18,7 @@ from .page import Raw, chips, colour_tables, html, join, notes, page, table, tag
 from .results import missing, result_rows
 from .scene_drawing import drawing
 
+DAMAGED = "This part cannot be made of what the run has left"
 FEW_FRAMES = 25  # fewer pictures than this make no smooth animation
 
 
@@ -42,11 +43,12 @@ class RunReport:
     def text(self) -> str:
         """The HTML file."""
         first = self.runs[0]
-        sections = [("computed", "What was computed", self._computed()), ("resolution", "Resolution", self._resolution()),
-                    ("results", "Results beside references", self._results()), ("mid-plane", "The mid-plane", self._mid_planes()),
-                    ("histories", "Histories", self._histories()), ("energy", "Energy and conservation", self._energy()),
-                    ("steps", "Steps and cost", self._steps()), ("warnings", "Warnings and limits", self._warnings()),
-                    ("repeat", "Versions, and how to repeat it", self._repeat())]
+        parts = [("computed", "What was computed", self._computed), ("resolution", "Resolution", self._resolution),
+                 ("results", "Results beside references", self._results), ("mid-plane", "The mid-plane", self._mid_planes),
+                 ("histories", "Histories", self._histories), ("energy", "Energy and conservation", self._energy),
+                 ("steps", "Steps and cost", self._steps), ("warnings", "Warnings and limits", self._warnings),
+                 ("repeat", "Versions, and how to repeat it", self._repeat)]
+        sections = [(name, heading, _made(build)) for name, heading, build in parts]
         end = max((histories.largest([run.energy["time"]]) for run in self.runs if run.energy and "time" in run.energy), default=0.0)
         factor, unit = scale_for("s", end or float(first.setting("end_time", 1e-6)))
         data = {"charts": self._charts.charts, "movies": self._movies, "colours": colour_tables(), "clock": {"factor": factor, "unit": unit}}
@@ -87,10 +89,7 @@ class RunReport:
     def _computed_of(self, run: Run) -> Raw:
         if not run.scene:
             return tag("p", "The scene is not known: resolved.toml is missing.")
-        try:
-            svg, legend, left_out = drawing(run)
-        except Missing as error:
-            svg, legend, left_out = "", [], [str(error)]
+        svg, legend, left_out = drawing(run)
         colours = dict(legend)
         swatch = lambda name: tag("span", class_="swatch", style=f"background:{colours.get(name, 'none')}") if name in colours else Raw("")
         listed = tag("dl", *(Raw(tag("dt", swatch(name), name) + tag("dd", words)) for name, words in description.parts(run)))
@@ -181,7 +180,7 @@ class RunReport:
                 if isinstance(said, dict) and isinstance(said.get("value"), (int, float)):
                     place = ", ".join(number(1e3 * x, 3) for x in said.get("place_m", []) if isinstance(x, (int, float)))
                     rows.append([name, owner, quantity(said["value"], unit), f"({place}) mm" if place else "–", quantity(said.get("time_s"), "s")])
-        for bubble in run.summary.get("bubbles") or []:
+        for bubble in [each for each in run.summary.get("bubbles") or [] if isinstance(each, dict)]:
             for key, what, unit in (("largest_radius_m", "largest radius", "m"), ("least_radius_m", "least radius", "m"), ("period_s", "period", "s")):
                 if isinstance(bubble.get(key), (int, float)):
                     rows.append([what, bubble.get("body", ""), quantity(bubble[key], unit), "–", quantity(bubble.get("largest_radius_time_s"), "s") if key == "largest_radius_m" else "–"])
@@ -305,6 +304,14 @@ class RunReport:
                                                class_="controls"),
                       tag("details", tag("summary", "The scene (resolved.toml)"), tag("pre", run.scene_text, id=name))]
         return join(parts)
+
+
+def _made(build) -> Raw:
+    """A part of the page; what is damaged in one part must not cost the others."""
+    try:
+        return build()
+    except (Missing, LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        return tag("p", f"{DAMAGED} ({type(error).__name__}: {error}).", class_="bad")
 
 
 def labels_of(runs: list[Run]) -> list[str]:

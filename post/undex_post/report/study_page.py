@@ -25,7 +25,7 @@ class StudyReport:
     def text(self) -> str:
         """The HTML file."""
         study = self._study
-        sections = [("cost", "Error against cost", self._of_errors(self._cost)), ("order", "Error against resolution", self._of_errors(self._order)),
+        sections = [("cost", "Error against cost", self._of_errors(self._cost)), ("order", "Error against resolution", join([self._of_errors(self._order), self._orders()])),
                     ("runs", "The runs", self._runs())]
         if not study.resolution:
             del sections[1]
@@ -91,19 +91,16 @@ class StudyReport:
 
     def _runs(self) -> Raw:
         study = self._study
-        head = ["run", *study.axes, "status", *study.errors, *(f"order: {error}" for error in study.errors if study.resolution), "CPU time [s]", "particles"]
+        head = ["run", *study.axes, "status", *study.errors, "CPU time [s]", "particles"]
         rows = []
         for row in study.rows:
             name = tag("a", row["run"], href=link) if (link := self._report(row)) else row["run"]
-            orders = [self._ordered(error, row) for error in study.errors if study.resolution]
             errors = [self._error(row, error) for error in study.errors]
             said = row["status"] + (f": {row['message']}" if row.get("message") else "")
-            rows.append([name, *(row.get(axis, "") for axis in study.axes), said, *errors, *orders, _shown(row.get("cpu_time_s")), _shown(row.get("particles"))])
+            rows.append([name, *(row.get(axis, "") for axis in study.axes), said, *errors, _shown(row.get("cpu_time_s")), _shown(row.get("particles"))])
         first = 2 + len(study.axes)
         hint = "Bold: no run of the same problem is as good in both CPU time and this error, and better in one. A run's own report is linked where it " \
                "exists (undex report of its folder, then this report again)."
-        if study.resolution:
-            hint += " Orders are observed by least squares along each curve."
         return join([tag("p", hint, class_="muted"),
                      table(head, rows, set(range(first, len(head))), [anchor(row["run"]) for row in study.rows])])
 
@@ -112,9 +109,12 @@ class StudyReport:
         text = _shown(row.get(f"error: {error}"))
         return tag("b", text) if row.get(f"pareto: {error}") == "1" else text
 
-    def _ordered(self, error: str, row: Row) -> str:
-        order = self._study.orders.get((error, row["curve"]), math.nan)
-        return "–" if math.isnan(order) else f"{order:.2f}"
+    def _orders(self) -> Raw:
+        """The observed orders, a row a curve."""
+        study = self._study
+        shown = lambda order: "–" if math.isnan(order) else f"{order:.2f}"
+        rows = [[curve or study.title, *(shown(study.orders.get((error, curve), math.nan)) for error in study.errors)] for curve in study.curves]
+        return join([tag("h3", "Observed orders, by least squares"), table(["", *study.errors], rows, set(range(1, 1 + len(study.errors))))])
 
 
 def _shown(text: str | None) -> str:
