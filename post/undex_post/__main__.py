@@ -19,8 +19,11 @@ def main(arguments: list[str] | None = None) -> int:
         import matplotlib  # noqa: F401
         import numpy  # noqa: F401
     except ImportError as error:
-        return _said(f"{error}: reports and pictures need it: apt-get install {PACKAGES} libjs-dygraphs, and Debian's own Python "
-                     f"(this is {sys.executable})", FAILED)
+        return _said(
+            f"{error}: reports and pictures need it: apt-get install {PACKAGES} libjs-dygraphs, and Debian's own Python "
+            f"(this is {sys.executable})",
+            FAILED,
+        )
     from .errors import Missing
 
     try:

@@ -26,14 +26,16 @@ class Comparison:
     def _read(self) -> None:
         with open(self.folder / "comparison.csv", newline="", encoding="utf-8") as file:
             header, *self.rows = list(csv.reader(file))
-        self.runs = header[3:header.index(REFERENCE, 3)]
+        self.runs = header[3 : header.index(REFERENCE, 3)]
         samples: dict[Key, dict[str, list[tuple[float, float]]]] = {}
         with open(self.folder / "curves.csv", newline="", encoding="utf-8") as file:
             next(file)
             for probe, kind, quantity, unit, run, time, value in csv.reader(file):
                 samples.setdefault((probe, kind, quantity, unit), {}).setdefault(run, []).append((float(time), float(value)))
         # What is neither a run nor the reference history is a source of a table.
-        self.sources = list(dict.fromkeys(run for runs in samples.values() for run in runs if run not in self.runs and run != REFERENCE))
+        self.sources = list(
+            dict.fromkeys(run for runs in samples.values() for run in runs if run not in self.runs and run != REFERENCE)
+        )
         self.curves = {key: {run: np.array(points).T for run, points in runs.items()} for key, runs in samples.items()}
 
     def select(self, wanted) -> dict[Key, dict[str, np.ndarray]]:

@@ -12,6 +12,7 @@ from .units import pretty_unit, scale_for
 @dataclass
 class Curve:
     """A curve, or points where `kind` is "points"; `run` is the number of the run it is of, None for references."""
+
     label: str
     x: np.ndarray
     y: np.ndarray
@@ -22,6 +23,7 @@ class Curve:
 @dataclass
 class Panel:
     """Curves with common axes, in SI units until `scaled`. `x_unit` is "s" for histories."""
+
     title: str
     quantity: str
     unit: str
@@ -61,6 +63,7 @@ def thinned(curve: Curve, most: int = 1500) -> Curve:
 
 # ------------------------------------------------------------------------------------------------ probes
 
+
 def probe_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     """A panel a quantity, a curve a probe, component and run; a panel a probe where there are more than ten curves."""
     found: dict[str, list[tuple[str, str, Curve]]] = {}
@@ -75,7 +78,12 @@ def probe_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
             flow = run.one_dimensional.get(probe)
             if flow is not None and "pressure" in flow:
                 found.setdefault("pressure", []).append(
-                    (probe, "pressure", Curve(f"{probe.replace('_', ' ')}: one-dimensional flow", flow["time"], flow["pressure"], None)))
+                    (
+                        probe,
+                        "pressure",
+                        Curve(f"{probe.replace('_', ' ')}: one-dimensional flow", flow["time"], flow["pressure"], None),
+                    )
+                )
                 units.setdefault("pressure", "Pa")
     panels = []
     for name, curves in found.items():
@@ -84,8 +92,14 @@ def probe_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
             panels.append(Panel(words.capitalize(), words, units[name], [curve for _, _, curve in curves]))
             continue
         for probe in dict.fromkeys(probe for probe, _, _ in curves):
-            panels.append(Panel(f"{words.capitalize()}, {probe.replace('_', ' ')}", words, units[name],
-                                [curve for owner, _, curve in curves if owner == probe]))
+            panels.append(
+                Panel(
+                    f"{words.capitalize()}, {probe.replace('_', ' ')}",
+                    words,
+                    units[name],
+                    [curve for owner, _, curve in curves if owner == probe],
+                )
+            )
     return panels
 
 
@@ -95,11 +109,15 @@ def moving_columns(history: Columns) -> list[tuple[str, np.ndarray]]:
     for column, values in history.items():
         name = component_axis(column)[0]
         tops[name] = max(tops.get(name, 0.0), largest([values]))
-    return [(column, values) for column, values in history.items() if column != "time"
-            and (not component_axis(column)[1] or largest([values]) > 1e-6 * tops[component_axis(column)[0]])]
+    return [
+        (column, values)
+        for column, values in history.items()
+        if column != "time" and (not component_axis(column)[1] or largest([values]) > 1e-6 * tops[component_axis(column)[0]])
+    ]
 
 
 # ------------------------------------------------------------------------------------------------ references
+
 
 def reference_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     """The compared probe beside the references of the scene, for the comparisons that have histories."""
@@ -120,8 +138,10 @@ def outward(history: Columns, quantity: str) -> tuple[np.ndarray, str] | None:
 
 
 def _tube_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
-    panels = [Panel("Outward displacement of the wall beside the references", "outward displacement", "m"),
-              Panel("Outward velocity of the wall beside the references", "outward velocity", "m/s")]
+    panels = [
+        Panel("Outward displacement of the wall beside the references", "outward displacement", "m"),
+        Panel("Outward velocity of the wall beside the references", "outward velocity", "m/s"),
+    ]
     for number, (label, run) in enumerate(runs):
         probe = run.compared_probe("displacement")
         if probe is None:
@@ -138,9 +158,12 @@ def _tube_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     table = runs[0][1].reference
     patterns = (r"displacement_(\d+)us_m", r"wall_velocity_(\d+)us_m_s")
     for panel, pattern in zip(panels, patterns):
-        for source in (table.sources if table else []):
-            points = sorted((1e-6 * float(match[1]), row.sources[source].value) for metric, row in table.rows.items()
-                            if (match := re.fullmatch(pattern, metric)) and source in row.sources)
+        for source in table.sources if table else []:
+            points = sorted(
+                (1e-6 * float(match[1]), row.sources[source].value)
+                for metric, row in table.rows.items()
+                if (match := re.fullmatch(pattern, metric)) and source in row.sources
+            )
             if points:
                 panel.curves.append(Curve(source, *np.array(points).T, None, "points"))
     return [panel for panel in panels if any(curve.run is not None for curve in panel.curves)]
@@ -166,7 +189,7 @@ def _rigid_cylinder_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
         panel.curves.append(Curve("converged (mesh code)", exact["time"], exact[column], None))
     table = runs[0][1].reference
     times = {"first_peak_pa": "first_peak_time_s", "second_peak_5us_pa": "second_peak_time_s"}
-    for source in (table.sources if table else []):
+    for source in table.sources if table else []:
         said = {metric: row.sources[source].value for metric, row in table.rows.items() if source in row.sources}
         points = [(said[time], said[peak]) for peak, time in times.items() if peak in said and time in said]
         points += [(said[time], 0.0) for time in ("cavitation_s", "collapse_s", "second_cavitation_s") if time in said]
@@ -176,6 +199,7 @@ def _rigid_cylinder_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
 
 
 # ------------------------------------------------------------------------------------------------ ledgers and parts
+
 
 def energy_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     """The energies that are not zero throughout, and the ledger's error."""
@@ -195,13 +219,22 @@ def energy_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     return [panel for panel in (energies, errors) if panel.curves]
 
 
-_PARTS = (("radius", "m", ("radius",)), ("volume", "m3", ("volume", "cavitated_volume", "void_volume")), ("mean pressure", "Pa", ("pressure",)),
-          ("energy", "J", ("kinetic", "internal")), ("force", "N", ("force",)), ("impulse", "N s", ("impulse",)))
+_PARTS = (
+    ("radius", "m", ("radius",)),
+    ("volume", "m3", ("volume", "cavitated_volume", "void_volume")),
+    ("mean pressure", "Pa", ("pressure",)),
+    ("energy", "J", ("kinetic", "internal")),
+    ("force", "N", ("force",)),
+    ("impulse", "N s", ("impulse",)),
+)
 
 
 def part_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
     """What bodies.csv and forces.csv say, a panel a kind of quantity."""
-    panels = {name: Panel(("Bodies: " if unit[0] != "N" else "On structures and walls: ") + name, name, unit) for name, unit, _ in _PARTS}
+    panels = {
+        name: Panel(("Bodies: " if unit[0] != "N" else "On structures and walls: ") + name, name, unit)
+        for name, unit, _ in _PARTS
+    }
     for number, (label, run) in enumerate(runs):
         liquids = {body.get("name") for body in run.tables("bodies") if body.get("variable_h") is False}
         for table in (run.bodies, run.forces):
@@ -212,8 +245,16 @@ def part_panels(runs: list[tuple[str, Run]]) -> list[Panel]:
                     continue  # a sphere as large as all the water says nothing
                 for name, _, words in _PARTS:
                     if owner and word in words and largest([values]) > 0:
-                        text = " ".join(part for part in (owner, word.replace("_", " ") if len(words) > 1 else "", axis,
-                                                          f"({label})" if len(runs) > 1 else "") if part)
+                        text = " ".join(
+                            part
+                            for part in (
+                                owner,
+                                word.replace("_", " ") if len(words) > 1 else "",
+                                axis,
+                                f"({label})" if len(runs) > 1 else "",
+                            )
+                            if part
+                        )
                         panels[name].curves.append(Curve(text, table["time"], values, number))
     return [panel for panel in panels.values() if panel.curves]
 
@@ -231,6 +272,7 @@ def step_panel(runs: list[tuple[str, Run]]) -> Panel | None:
 
 # ------------------------------------------------------------------------------------------------ over a coordinate
 
+
 def line_panels(run: Run, number: int = 0) -> list[Panel]:
     """Profiles along the scene's lines, ten times at most."""
     panels = []
@@ -239,8 +281,14 @@ def line_panels(run: Run, number: int = 0) -> list[Panel]:
         for name in columns:
             if name in ("time", "distance", *"xyz"):
                 continue
-            panel = Panel(f"{line.replace('_', ' ')}: {name.replace('_', ' ')}", name.replace("_", " "), columns.units.get(name, ""),
-                          [], "distance", "m")
+            panel = Panel(
+                f"{line.replace('_', ' ')}: {name.replace('_', ' ')}",
+                name.replace("_", " "),
+                columns.units.get(name, ""),
+                [],
+                "distance",
+                "m",
+            )
             for time in evenly(times, 10):
                 now = columns["time"] == time
                 panel.curves.append(Curve(_when(time), columns["distance"][now], columns[name][now], number))
@@ -276,11 +324,17 @@ def coordinate_panels(run: Run, count: int = 12) -> list[Panel]:
             snapshot = snapshots.read(int(index))
             order = np.argsort(snapshot["position"][:, 0])
             x = snapshot["position"][order, 0]
-            for field_name, name, unit in (("pressure", "pressure", "Pa"), ("velocity_0", "velocity", "m/s"), ("density", "density", "kg/m3"),
-                                           ("void_fraction", "void fraction", "-")):
+            for field_name, name, unit in (
+                ("pressure", "pressure", "Pa"),
+                ("velocity_0", "velocity", "m/s"),
+                ("density", "density", "kg/m3"),
+                ("void_fraction", "void fraction", "-"),
+            ):
                 if field_name in snapshot:
                     panel = panels.setdefault(name, Panel(f"{name.capitalize()} along {label}", name, unit, [], label, "m"))
-                    panel.curves.append(Curve(_when(snapshots.times[int(index)]), x, snapshot[field_name][order].astype(float), 0))
+                    panel.curves.append(
+                        Curve(_when(snapshots.times[int(index)]), x, snapshot[field_name][order].astype(float), 0)
+                    )
     return [panel for panel in panels.values() if largest(curve.y for curve in panel.curves) > 0]
 
 

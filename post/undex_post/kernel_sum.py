@@ -19,6 +19,7 @@ PAIRS_AT_A_TIME = 100_000  # small enough for the processor's caches
 @dataclass(frozen=True)
 class Grid:
     """Square cells of size `pixel`; values are those at their middles."""
+
     low: tuple[float, float]
     columns: int
     rows: int
@@ -36,13 +37,16 @@ class Grid:
 
     def middles(self) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates of the columns' and of the rows' middles."""
-        return (self.low[0] + (np.arange(self.columns) + 0.5) * self.pixel,
-                self.low[1] + (np.arange(self.rows) + 0.5) * self.pixel)
+        return (
+            self.low[0] + (np.arange(self.columns) + 0.5) * self.pixel,
+            self.low[1] + (np.arange(self.rows) + 0.5) * self.pixel,
+        )
 
 
 @dataclass
 class Cloud:
     """Particles near a plane: places in it (n, 2), distances from it (n,), smoothing lengths and volumes (areas in 2D)."""
+
     points: np.ndarray
     offset: np.ndarray
     h: np.ndarray
@@ -61,6 +65,7 @@ class Cloud:
 class _Windows:
     """Square windows of cells about some particles: flat indices of the cells in the padded grid and W (n, size, size), numbers of
     the particles (n,), and the way from cell to particle along both axes."""
+
     cell: np.ndarray
     weight: np.ndarray
     particle: np.ndarray
@@ -83,7 +88,7 @@ class _Total:
     def inner(self) -> np.ndarray:
         pad = self._pad
         whole = self.flat.reshape(self._grid.rows + 2 * pad, self._grid.columns + 2 * pad)
-        return whole[pad:pad + self._grid.rows, pad:pad + self._grid.columns]
+        return whole[pad : pad + self._grid.rows, pad : pad + self._grid.columns]
 
 
 class _Scatter:
@@ -109,7 +114,7 @@ class _Scatter:
             group = np.flatnonzero(self._size == size)
             portion = max(1, PAIRS_AT_A_TIME // int(size) ** 2)
             for first in range(0, len(group), portion):
-                yield self._windows(group[first:first + portion], np.arange(size))
+                yield self._windows(group[first : first + portion], np.arange(size))
 
     def _windows(self, mine: np.ndarray, steps: np.ndarray) -> _Windows:
         grid, place = self._grid, self._place[mine]
@@ -131,8 +136,9 @@ def kernel_sum(cloud: Cloud, quantity: np.ndarray, grid: Grid, kernel: Kernel, d
     return total.inner
 
 
-def shepard(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel,
-            dimension: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def shepard(
+    cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel, dimension: int
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Normalised sums (sum of V f W)/(sum of V W), and the filling, the sum of V W. They reproduce constant fields. Where no
     particle reaches, values are nan."""
     scatter = _Scatter(cloud, grid, kernel, dimension)
@@ -145,10 +151,12 @@ def shepard(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Ker
         return {name: total.inner / filling.inner for name, total in sums.items()}, filling.inner
 
 
-def linear(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel,
-           dimension: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def linear(
+    cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kernel, dimension: int
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Moving least squares of first order, and the filling. They reproduce linear fields, also beside surfaces. Where too few
-    particles reach for a slope, the values are Shepard's. In three dimensions the particles on both sides of the plane are needed."""
+    particles reach for a slope, the values are Shepard's. In three dimensions the particles on both sides of the plane are needed.
+    """
     size = 3 if dimension == 2 else 4
     scatter = _Scatter(cloud, grid, kernel, dimension)
     moments = {(i, k): scatter.total() for i in range(size) for k in range(i, size)}
@@ -170,5 +178,7 @@ def linear(cloud: Cloud, values: dict[str, np.ndarray], grid: Grid, kernel: Kern
     first[..., 0] = 1.0
     first[sound] = np.linalg.inv(matrices[sound])[..., 0]
     with np.errstate(invalid="ignore", divide="ignore"):
-        fields = {name: sum(first[..., i] * total.inner for i, total in enumerate(totals)) / filling for name, totals in sums.items()}
+        fields = {
+            name: sum(first[..., i] * total.inner for i, total in enumerate(totals)) / filling for name, totals in sums.items()
+        }
     return fields, filling

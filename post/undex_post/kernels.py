@@ -11,6 +11,7 @@ Shape = Callable[[np.ndarray], np.ndarray]
 @dataclass(frozen=True)
 class Kernel:
     """W = norm(d)/h^d shape(r/h), zero beyond `support` smoothing lengths; `usual_eta` is the usual h over the spacing."""
+
     name: str
     support: float
     usual_eta: float
@@ -56,16 +57,23 @@ def _gaussian(q: np.ndarray) -> np.ndarray:
 
 
 _CUT = exp(-9.0)
-_GAUSSIAN_NORMS = (1.0 / (sqrt(pi) * erf(3.0) - 6.0 * _CUT), 1.0 / (pi * (1.0 - _CUT) - pi * 9.0 * _CUT),
-                   1.0 / (pi**1.5 * erf(3.0) - 2.0 * pi * 3.0 * _CUT - 4.0 / 3.0 * pi * 27.0 * _CUT))
+_GAUSSIAN_NORMS = (
+    1.0 / (sqrt(pi) * erf(3.0) - 6.0 * _CUT),
+    1.0 / (pi * (1.0 - _CUT) - pi * 9.0 * _CUT),
+    1.0 / (pi**1.5 * erf(3.0) - 2.0 * pi * 3.0 * _CUT - 4.0 / 3.0 * pi * 27.0 * _CUT),
+)
 
-KERNELS = {kernel.name: kernel for kernel in (
-    Kernel("wendland_c2", 2.0, 1.5, (3.0 / 4.0, 7.0 / (4.0 * pi), 21.0 / (16.0 * pi)), _wendland_c2),
-    Kernel("wendland_c4", 2.0, 1.75, (27.0 / 32.0, 9.0 / (4.0 * pi), 495.0 / (256.0 * pi)), _wendland_c4),
-    Kernel("wendland_c6", 2.0, 2.0, (15.0 / 16.0, 78.0 / (28.0 * pi), 1365.0 / (512.0 * pi)), _wendland_c6),
-    Kernel("cubic_spline", 2.0, 1.325, (2.0 / 3.0, 10.0 / (7.0 * pi), 1.0 / pi), _cubic_spline),
-    Kernel("quintic_spline", 3.0, 1.1, (1.0 / 120.0, 7.0 / (478.0 * pi), 1.0 / (120.0 * pi)), _quintic_spline),
-    Kernel("gaussian", 3.0, 1.2, _GAUSSIAN_NORMS, _gaussian))}
+KERNELS = {
+    kernel.name: kernel
+    for kernel in (
+        Kernel("wendland_c2", 2.0, 1.5, (3.0 / 4.0, 7.0 / (4.0 * pi), 21.0 / (16.0 * pi)), _wendland_c2),
+        Kernel("wendland_c4", 2.0, 1.75, (27.0 / 32.0, 9.0 / (4.0 * pi), 495.0 / (256.0 * pi)), _wendland_c4),
+        Kernel("wendland_c6", 2.0, 2.0, (15.0 / 16.0, 78.0 / (28.0 * pi), 1365.0 / (512.0 * pi)), _wendland_c6),
+        Kernel("cubic_spline", 2.0, 1.325, (2.0 / 3.0, 10.0 / (7.0 * pi), 1.0 / pi), _cubic_spline),
+        Kernel("quintic_spline", 3.0, 1.1, (1.0 / 120.0, 7.0 / (478.0 * pi), 1.0 / (120.0 * pi)), _quintic_spline),
+        Kernel("gaussian", 3.0, 1.2, _GAUSSIAN_NORMS, _gaussian),
+    )
+}
 
 
 def kernel_named(name: str | None) -> Kernel:

@@ -26,15 +26,23 @@ STRUCTURE_FIELDS = ("plastic_strain", "von_mises", "pressure", "temperature")
 
 
 # What each field is called, its unit in SI, and whether small values need finer steps than large ones.
-QUANTITIES = {"pressure": ("pressure", "Pa", True), "void_fraction": ("void fraction", "-", False), "speed": ("speed", "m/s", True),
-              "density": ("density", "kg/m3", False), "energy": ("specific internal energy", "J/kg", True),
-              "plastic_strain": ("plastic strain", "-", True), "von_mises": ("von Mises stress", "Pa", False),
-              "temperature": ("temperature", "K", False), "damage": ("damage", "-", False)}
+QUANTITIES = {
+    "pressure": ("pressure", "Pa", True),
+    "void_fraction": ("void fraction", "-", False),
+    "speed": ("speed", "m/s", True),
+    "density": ("density", "kg/m3", False),
+    "energy": ("specific internal energy", "J/kg", True),
+    "plastic_strain": ("plastic strain", "-", True),
+    "von_mises": ("von Mises stress", "Pa", False),
+    "temperature": ("temperature", "K", False),
+    "damage": ("damage", "-", False),
+}
 
 
 @dataclass
 class Layer:
     """Fields of particles on the grid; closed outlines of where there is material, and the lines where bodies meet."""
+
     fields: dict[str, np.ndarray]
     outlines: list[np.ndarray]
     interfaces: list[np.ndarray]
@@ -43,6 +51,7 @@ class Layer:
 @dataclass
 class StructureCut:
     """The polygons of a structure in the plane, and what its cells have there."""
+
     name: str
     polygons: list[np.ndarray]
     fields: dict[str, np.ndarray]
@@ -51,6 +60,7 @@ class StructureCut:
 @dataclass
 class Frame:
     """One time of the mid-plane."""
+
     time: float
     fluid: Layer | None = None
     solids: Layer | None = None
@@ -60,10 +70,16 @@ class Frame:
 
 class MidPlane:
     """The section of a run in two or three dimensions, with so many cells at most along its longer side (of the computed part), and
-    with those of the named fields that the snapshots have. Raises Missing where the run has no snapshots or one coordinate only."""
+    with those of the named fields that the snapshots have. Raises Missing where the run has no snapshots or one coordinate only.
+    """
 
-    def __init__(self, run: Run, cells: int = 320, fluid_fields: tuple[str, ...] = FLUID_FIELDS,
-                 solid_fields: tuple[str, ...] = SOLID_FIELDS):
+    def __init__(
+        self,
+        run: Run,
+        cells: int = 320,
+        fluid_fields: tuple[str, ...] = FLUID_FIELDS,
+        solid_fields: tuple[str, ...] = SOLID_FIELDS,
+    ):
         if run.is_on_a_line:
             raise Missing("the scene has one coordinate: it has profiles and no mid-plane")
         self._wanted = fluid_fields, solid_fields
@@ -74,8 +90,7 @@ class MidPlane:
             self._obstacles = run.obstacles()
             sources = [each for each in (self._fluid, self._solids, *self._structures) if each]
             if not sources:
-                raise Missing("the run has no snapshots of its fields; ask for them by output.field_times or "
-                              "output.field_interval in its scene")
+                raise Missing("the run has no snapshots of its fields (output.field_times, output.field_interval)")
             self.times: list[float] = list(sources[0].times)
             self._within = 0.25 * float(np.min(np.diff(self.times))) if len(self.times) > 1 else np.inf
             self._particles = FluidParticles(run, self._fluid) if self._fluid else None
@@ -135,16 +150,27 @@ class MidPlane:
         h = self._solid_eta * np.maximum(volume, 1e-300) ** (1 / self.section.dimension)
         return self._layer(snapshot, body, volume, h, self._solid_kernel, self._wanted[1])
 
-    def _layer(self, snapshot: dict[str, np.ndarray], body: np.ndarray, volume: np.ndarray, h: np.ndarray, kernel: Kernel,
-               wanted: tuple[str, ...]) -> Layer:
+    def _layer(
+        self,
+        snapshot: dict[str, np.ndarray],
+        body: np.ndarray,
+        volume: np.ndarray,
+        h: np.ndarray,
+        kernel: Kernel,
+        wanted: tuple[str, ...],
+    ) -> Layer:
         """Shepard sums of each body alone, so that fields keep their steps where bodies meet; of every place the body that fills
         it most."""
         values = {name: snapshot[name].astype(float) for name in wanted if name in snapshot}
         if "speed" in wanted and speed(snapshot) is not None:
             values["speed"] = speed(snapshot)
         h = np.maximum(h, 0.75 * self.grid.pixel)  # finer particles must not fall between the grid's middles
-        cloud = Cloud(self.section.in_plane(snapshot["position"]), self.section.distance(snapshot["position"]), h,
-                      self.section.weight_of_images() * volume)
+        cloud = Cloud(
+            self.section.in_plane(snapshot["position"]),
+            self.section.distance(snapshot["position"]),
+            h,
+            self.section.weight_of_images() * volume,
+        )
         shape = (self.grid.rows, self.grid.columns)
         best = np.zeros(shape)
         fields = {name: np.full(shape, np.nan) for name in values}
@@ -154,8 +180,9 @@ class MidPlane:
             if not len(mine):
                 continue
             seen, source = self._with_images(cloud[mine], kernel)
-            found, filling = shepard(seen, {name: each[mine][source] for name, each in values.items()}, self.grid, kernel,
-                                     self.section.dimension)
+            found, filling = shepard(
+                seen, {name: each[mine][source] for name, each in values.items()}, self.grid, kernel, self.section.dimension
+            )
             wins = filling > best
             best = np.where(wins, filling, best)
             for name, total in fields.items():
@@ -177,7 +204,9 @@ class MidPlane:
 
     # ------------------------------------------------------------------------------------------------ outlines
 
-    def _contours(self, values: np.ndarray, level: float, closed: bool = False, mask: np.ndarray | None = None) -> list[np.ndarray]:
+    def _contours(
+        self, values: np.ndarray, level: float, closed: bool = False, mask: np.ndarray | None = None
+    ) -> list[np.ndarray]:
         """Lines of that value, up to a cell beyond the edges, so that they meet their mirror images; closed ones go round there."""
         import contourpy
 
@@ -191,7 +220,9 @@ class MidPlane:
             values = np.ma.array(values, mask=np.pad(mask, 1, mode="edge"))
         if min(values.shape) < 2:
             return []
-        return [simplified(line, 0.05 * pixel) for line in contourpy.contour_generator(u, v, values).lines(level) if len(line) > 3]
+        return [
+            simplified(line, 0.05 * pixel) for line in contourpy.contour_generator(u, v, values).lines(level) if len(line) > 3
+        ]
 
     def _interfaces(self, fillings: list[np.ndarray], whole: np.ndarray) -> list[np.ndarray]:
         lines = []

@@ -11,13 +11,33 @@ from .snapshots import MeshSnapshots, ParticleSnapshots, structure_indices
 from .tables import Columns, ReferenceTable, read_columns, read_reference_table
 
 AXES = "xyz"
-_NUMBERS = ("time_s", "fluid_substeps", "steps", "wall_time_s", "cpu_time_s", "threads", "particles", "wall_particles", "cells",
-            "particle_updates", "neighbour_interactions", "peak_memory_bytes", "solver_memory_bytes", "mass_error", "momentum_error",
-            "angular_momentum_error", "energy_error", "interface_impulse_error", "interface_energy_error")
-_KINDS = {**{name: (int, float) for name in _NUMBERS},
-          **{name: (str,) for name in ("scene", "status", "message", "program")},
-          **{name: (list,) for name in ("warnings", "bubbles", "structures", "obstacles")},
-          **{name: (dict,) for name in ("largest", "clamps", "passes", "metrics", "missing")}}
+_NUMBERS = (
+    "time_s",
+    "fluid_substeps",
+    "steps",
+    "wall_time_s",
+    "cpu_time_s",
+    "threads",
+    "particles",
+    "wall_particles",
+    "cells",
+    "particle_updates",
+    "neighbour_interactions",
+    "peak_memory_bytes",
+    "solver_memory_bytes",
+    "mass_error",
+    "momentum_error",
+    "angular_momentum_error",
+    "energy_error",
+    "interface_impulse_error",
+    "interface_energy_error",
+)
+_KINDS = {
+    **{name: (int, float) for name in _NUMBERS},
+    **{name: (str,) for name in ("scene", "status", "message", "program")},
+    **{name: (list,) for name in ("warnings", "bubbles", "structures", "obstacles")},
+    **{name: (dict,) for name in ("largest", "clamps", "passes", "metrics", "missing")},
+}
 
 
 class Run:
@@ -35,19 +55,26 @@ class Run:
         self.summary = self._read_summary(self.folder / "summary.json")
         self.scene, self.scene_text = self._read_scene()
         every = self._tables("history")
-        self.one_dimensional = {name.removesuffix("_1d"): columns for name, columns in every.items()
-                                if name.endswith("_1d") and name.removesuffix("_1d") in every}
-        self.histories = {name: columns for name, columns in every.items()
-                          if not (name.endswith("_1d") and name.removesuffix("_1d") in every)}
+        self.one_dimensional = {
+            name.removesuffix("_1d"): columns
+            for name, columns in every.items()
+            if name.endswith("_1d") and name.removesuffix("_1d") in every
+        }
+        self.histories = {
+            name: columns for name, columns in every.items() if not (name.endswith("_1d") and name.removesuffix("_1d") in every)
+        }
         self.lines = self._tables("lines")
         self.energy = self._table("energy.csv")
         self.bodies = self._table("bodies.csv")
         self.forces = self._table("forces.csv")
         if not (self.summary or self.scene or self.histories or self.energy):
-            raise Missing(f"{folder}: no summary.json, resolved.toml, energy.csv or history/*.csv here; "
-                          "give the output folder of a run")
+            raise Missing(
+                f"{folder}: no summary.json, resolved.toml, energy.csv or history/*.csv here; " "give the output folder of a run"
+            )
         if not self.summary:
-            self.notes.append("The run has no summary.json: it was killed or is still going. Results, cost and warnings are not known.")
+            self.notes.append(
+                "The run has no summary.json: it was killed or is still going. Results, cost and warnings are not known."
+            )
 
     # ------------------------------------------------------------------------------------------------ what it was
 
@@ -170,8 +197,11 @@ class Run:
         if not isinstance(found, dict):
             self.notes.append(f"{path.name} is not a run's record.")
             return {}
-        sound = {name: value for name, value in found.items()
-                 if value is not None and not isinstance(value, bool) and isinstance(value, _KINDS.get(name, object))}
+        sound = {
+            name: value
+            for name, value in found.items()
+            if value is not None and not isinstance(value, bool) and isinstance(value, _KINDS.get(name, object))
+        }
         wrong = [name for name, value in found.items() if name not in sound and value is not None]
         if wrong:
             self.notes.append(f"Left out of {path.name}, as not of the kind that they should be: {', '.join(wrong)}.")

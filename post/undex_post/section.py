@@ -12,7 +12,9 @@ HEXAHEDRON_EDGES = np.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6,
 @dataclass(frozen=True)
 class Section:
     """A plane across the axis `normal` at the coordinate `level`; `axes` are drawn to the right and upwards. Across the axes of
-    `mirror` only the positive half is computed. `dimension` is that of the kernel sums: 2 in a plane scene or a meridian, else 3."""
+    `mirror` only the positive half is computed. `dimension` is that of the kernel sums: 2 in a plane scene or a meridian, else 3.
+    """
+
     axes: tuple[int, int]
     normal: int
     level: float
@@ -95,8 +97,11 @@ class Section:
         level = self._cutting_level(np.array([np.ptp(height[face]) for face in faces if len(face) > 2] or [0.0]))
         segments = []
         for face in faces:
-            ends = (self.in_plane(mesh.points[face]) if len(face) == 2
-                    else self._crossings(mesh.points, face, np.roll(face, -1), level))
+            ends = (
+                self.in_plane(mesh.points[face])
+                if len(face) == 2
+                else self._crossings(mesh.points, face, np.roll(face, -1), level)
+            )
             if len(ends) == 2:
                 segments.append(ends)
         return segments

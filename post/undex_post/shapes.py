@@ -62,8 +62,10 @@ def _box(table: dict, dimension) -> tuple[Level, tuple]:
     if dimension == 2:
         low[2], high[2] = -np.inf, np.inf
     used = np.isfinite(low)
-    return (lambda p: np.maximum(low[used] - p[:, used], p[:, used] - high[used]).max(axis=1),
-            (np.where(used, low, 0.0), np.where(used, high, 0.0)))
+    return (
+        lambda p: np.maximum(low[used] - p[:, used], p[:, used] - high[used]).max(axis=1),
+        (np.where(used, low, 0.0), np.where(used, high, 0.0)),
+    )
 
 
 def _slab(table: dict, _) -> tuple[Level, tuple]:
@@ -75,12 +77,19 @@ def _ellipsoid(table: dict, dimension) -> tuple[Level, tuple]:
     center = _vector(table.get("center", 0.0))
     size = _vector(table["semi_axes"], 1.0) if "semi_axes" in table else np.full(3, float(table["radius"]))
     flat = np.array([1.0, 1.0, 0.0]) if dimension == 2 else np.ones(3)
-    return (lambda p: (np.linalg.norm((p - center) / size * flat, axis=1) - 1) * size.min(),
-            (center - size * flat, center + size * flat))
+    return (
+        lambda p: (np.linalg.norm((p - center) / size * flat, axis=1) - 1) * size.min(),
+        (center - size * flat, center + size * flat),
+    )
 
 
-def _round(table: dict, dimension, inner: Callable[[np.ndarray], np.ndarray] | None, outer: Callable[[np.ndarray], np.ndarray],
-           largest: float) -> tuple[Level, tuple]:
+def _round(
+    table: dict,
+    dimension,
+    inner: Callable[[np.ndarray], np.ndarray] | None,
+    outer: Callable[[np.ndarray], np.ndarray],
+    largest: float,
+) -> tuple[Level, tuple]:
     """What lies between two radii that may change along the axis."""
     axis, center = AXES.index(table.get("axis", "z")), _vector(table.get("center", 0.0))
     low, high = float(table.get("low", -np.inf)), float(table.get("high", np.inf))
@@ -164,6 +173,20 @@ def _combined(table: dict, dimension) -> tuple[Level, tuple]:
     return (lambda p: np.max([shapes[0].level(p)] + [-shape.level(p) for shape in shapes[1:]], axis=0), shapes[0].bounds)
 
 
-_MAKERS = {"box": _box, "plate": _box, "slab": _slab, "sphere": _ellipsoid, "ellipsoid": _ellipsoid, "cylinder": _cylinder,
-           "rod": _cylinder, "tube": _tube, "ring": _tube, "cone": _cone, "half_space": _half_space, "revolution": _revolution,
-           "union": _combined, "intersection": _combined, "difference": _combined}
+_MAKERS = {
+    "box": _box,
+    "plate": _box,
+    "slab": _slab,
+    "sphere": _ellipsoid,
+    "ellipsoid": _ellipsoid,
+    "cylinder": _cylinder,
+    "rod": _cylinder,
+    "tube": _tube,
+    "ring": _tube,
+    "cone": _cone,
+    "half_space": _half_space,
+    "revolution": _revolution,
+    "union": _combined,
+    "intersection": _combined,
+    "difference": _combined,
+}

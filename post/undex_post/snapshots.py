@@ -66,6 +66,7 @@ def speed(snapshot: dict[str, np.ndarray]) -> np.ndarray | None:
 @dataclass
 class Mesh:
     """A snapshot of a structure or of surfaces: points [m] at their present places, cells as lists of points, fields by name."""
+
     points: np.ndarray
     offsets: np.ndarray
     connectivity: np.ndarray
@@ -106,8 +107,10 @@ class MeshSnapshots:
         try:
             with h5py.File(path) as file:
                 root = file["VTKHDF"]
-                data = [{name: root[group][name][:] for name in root[group]} if group in root else {}
-                        for group in ("PointData", "CellData")]
+                data = [
+                    {name: root[group][name][:] for name in root[group]} if group in root else {}
+                    for group in ("PointData", "CellData")
+                ]
                 return Mesh(root["Points"][:].astype(float), root["Offsets"][:], root["Connectivity"][:], *data)
         except (OSError, KeyError) as error:
             raise Missing(f"{path}: cannot be read ({error})") from error

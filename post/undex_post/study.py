@@ -36,7 +36,9 @@ class Study:
         self.done = [row for row in self.rows if row["status"] == "done"]
         for row in self.done:
             _add_speeds(row)
-        self.orders = {(row["error"], row["curve"]): number(row["order"]) for row in self._orders() if row["kind"] == "least squares"}
+        self.orders = {
+            (row["error"], row["curve"]): number(row["order"]) for row in self._orders() if row["kind"] == "least squares"
+        }
         self.curves = list(dict.fromkeys(row["curve"] for row in self.done))
         self.problems = list(dict.fromkeys(row["problem"] for row in self.done))
 
@@ -48,8 +50,11 @@ class Study:
         """By curve: x, magnitude of y, and the row, by resolution (or by x), where both are positive."""
         found = {}
         for curve in self.curves:
-            rows = [row for row in self.done if row["curve"] == curve and row["problem"] == problem
-                    and number(row.get(x)) > 0 and abs(number(row.get(y))) > 0]
+            rows = [
+                row
+                for row in self.done
+                if row["curve"] == curve and row["problem"] == problem and number(row.get(x)) > 0 and abs(number(row.get(y))) > 0
+            ]
             rows.sort(key=lambda row: number(row.get(self.resolution or x)))
             if rows:
                 found[curve] = [(number(row[x]), abs(number(row[y])), row) for row in rows]
@@ -57,8 +62,12 @@ class Study:
 
     def front(self, problem: str, error: str) -> list[tuple[float, float]]:
         """CPU time and error of the runs of a problem that none beats in both."""
-        return sorted((time, value) for points in self.points(problem, "cpu_time_s", f"error: {error}").values()
-                      for time, value, row in points if row.get(f"pareto: {error}") == "1")
+        return sorted(
+            (time, value)
+            for points in self.points(problem, "cpu_time_s", f"error: {error}").values()
+            for time, value, row in points
+            if row.get(f"pareto: {error}") == "1"
+        )
 
     def looks(self) -> dict[str, tuple[int, int, int]]:
         """By curve the numbers of its colour, line and marker: colours by the first axis that tells curves apart, lines by the

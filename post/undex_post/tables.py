@@ -47,6 +47,7 @@ def read_columns(path: Path, of_a_run: bool = True) -> Columns:
 @dataclass
 class Reference:
     """What one source says of a metric, in SI units."""
+
     value: float
     spread: float = 0.0
 
@@ -54,6 +55,7 @@ class Reference:
 @dataclass
 class ReferenceRow:
     """A metric of a reference table: how it is written, value = metric * scale in `unit`, and what each source says."""
+
     label: str
     unit: str
     scale: float
@@ -63,6 +65,7 @@ class ReferenceRow:
 @dataclass
 class ReferenceTable:
     """A table of metrics as in cases/*/reference (the format stands in judge/comparison_table.hpp)."""
+
     path: Path
     sources: list[str]
     rows: dict[str, ReferenceRow]

@@ -28,10 +28,28 @@ class Browser:
         to_child, self._write = os.pipe()
         self._read, from_child = os.pipe()
         self._process = subprocess.Popen(
-            ["/bin/sh", "-c", f'exec "$@" 3<&{to_child} 4>&{from_child}', "sh", program, "--headless=new", "--no-sandbox", "--disable-gpu",
-             "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars", "--force-color-profile=srgb", "--remote-debugging-pipe",
-             f"--user-data-dir={self._folder.name}", "about:blank"],
-            pass_fds=(to_child, from_child), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+            [
+                "/bin/sh",
+                "-c",
+                f'exec "$@" 3<&{to_child} 4>&{from_child}',
+                "sh",
+                program,
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+                "--no-first-run",
+                "--hide-scrollbars",
+                "--force-color-profile=srgb",
+                "--remote-debugging-pipe",
+                f"--user-data-dir={self._folder.name}",
+                "about:blank",
+            ],
+            pass_fds=(to_child, from_child),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            stdin=subprocess.DEVNULL,
+        )
         os.close(to_child)
         os.close(from_child)
         self._buffer = b""
@@ -105,7 +123,9 @@ class Browser:
     # ------------------------------------------------------------------------------------------------ a page
 
     def size(self, width: int, height: int = 900, phone: bool = False, scale: float = 1) -> None:
-        self.call("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": scale, "mobile": phone})
+        self.call(
+            "Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": scale, "mobile": phone}
+        )
 
     def scheme(self, name: str) -> None:
         """ "light" or "dark"."""
@@ -139,10 +159,14 @@ class Browser:
 
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         for kind, (x, y), buttons in (("mousePressed", start, 1), ("mouseMoved", end, 1), ("mouseReleased", end, 0)):
-            self.call("Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y, "button": "left", "buttons": buttons, "clickCount": 1})
+            self.call(
+                "Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y, "button": "left", "buttons": buttons, "clickCount": 1}
+            )
 
     def screenshot(self, path: Path, whole: bool = True) -> None:
-        answer = self.call("Page.captureScreenshot", {"captureBeyondViewport": whole, **({"clip": self._whole()} if whole else {})})
+        answer = self.call(
+            "Page.captureScreenshot", {"captureBeyondViewport": whole, **({"clip": self._whole()} if whole else {})}
+        )
         path.write_bytes(base64.b64decode(answer["data"]))
 
     def _whole(self) -> dict:
@@ -155,4 +179,4 @@ class Browser:
 
 def _write_all(descriptor: int, data: bytes) -> None:
     while data:
-        data = data[os.write(descriptor, data):]
+        data = data[os.write(descriptor, data) :]

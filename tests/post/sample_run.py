@@ -20,17 +20,37 @@ def temporary_folder() -> Path:
 
 def undex(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess:
     """Runs the program with these arguments."""
-    return subprocess.run([UNDEX, *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False,
-                          env={**os.environ, "OMP_NUM_THREADS": "1", **(environment or {})})
+    return subprocess.run(
+        [UNDEX, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+        env={**os.environ, "OMP_NUM_THREADS": "1", **(environment or {})},
+    )
 
 
 @cache
 def tube() -> Path:
     """The folder of the run, with a dozen snapshots. Tests must not change it: `changed_tube` gives a copy."""
     folder = temporary_folder() / "tube"
-    done = undex("run", CASES / "al_tube_fem" / "experiment.toml", "-q", "-o", folder, "-P", "resolution.spacing=0.002", "--tend", "60e-6",
-                 "-P", "output.field_interval=3e-6", "-P", "output.field_times=[]",
-                 "-P", 'output.particle_fields=["pressure", "density", "velocity", "void_fraction", "mass", "material"]')
+    done = undex(
+        "run",
+        CASES / "al_tube_fem" / "experiment.toml",
+        "-q",
+        "-o",
+        folder,
+        "-P",
+        "resolution.spacing=0.002",
+        "--tend",
+        "60e-6",
+        "-P",
+        "output.field_interval=3e-6",
+        "-P",
+        "output.field_times=[]",
+        "-P",
+        'output.particle_fields=["pressure", "density", "velocity", "void_fraction", "mass", "material"]',
+    )
     if done.returncode != 0:
         raise RuntimeError(f"undex run: exit code {done.returncode}: {done.stderr}")
     return folder

@@ -97,7 +97,9 @@ class Sums(unittest.TestCase):
     def test_smoothing_lengths_of_all_sizes(self):
         """Windows of different sizes give what a plain double loop gives."""
         random = np.random.default_rng(3)
-        cloud = Cloud(random.uniform(-0.2, 1.2, (60, 2)), random.uniform(-0.05, 0.05, 60), random.uniform(0.004, 0.3, 60), np.ones(60))
+        cloud = Cloud(
+            random.uniform(-0.2, 1.2, (60, 2)), random.uniform(-0.05, 0.05, 60), random.uniform(0.004, 0.3, 60), np.ones(60)
+        )
         kernel, u, v = KERNELS["cubic_spline"], *self.grid.middles()
         expected = np.zeros((self.grid.rows, self.grid.columns))
         for (x, y), offset, h in zip(cloud.points, cloud.offset, cloud.h):
@@ -116,7 +118,9 @@ class Section(unittest.TestCase):
             self.assertEqual(len(frame.structures[0].polygons), run.summary["cells"])
             pressure = frame.fluid.fields["pressure"]
             snapshot = plane._fluid.read(len(plane) - 1)
-            self.assertLessEqual(np.nanmax(pressure), snapshot["pressure"].max() * (1 + 1e-6))  # means cannot exceed what they are of
+            self.assertLessEqual(
+                np.nanmax(pressure), snapshot["pressure"].max() * (1 + 1e-6)
+            )  # means cannot exceed what they are of
             self.assertGreater(np.nanmax(pressure), 0.3 * snapshot["pressure"].max())
             # The bubble of bodies.csv: the interface meets the axis and the mid-height near its radius.
             radius = np.interp(frame.time, run.bodies["time"], run.bodies["charge.radius"])

@@ -43,8 +43,10 @@ class Page(unittest.TestCase):
         self.browser.wait(f"document.querySelector('.movie').dataset.drawn.startsWith('{frame} ')")
 
     # What the canvas shows: a sum over its pixels, which any change of the picture changes.
-    PICTURE = ("(() => { const c = document.querySelector('.movie .stage canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
-               " let s = 0; for (let i = 0; i < d.length; ++i) s = (31 * s + d[i]) % 1000003; return s; })()")
+    PICTURE = (
+        "(() => { const c = document.querySelector('.movie .stage canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
+        " let s = 0; for (let i = 0; i < d.length; ++i) s = (31 * s + d[i]) % 1000003; return s; })()"
+    )
 
     def test_it_opens_without_network_or_error(self):
         self.number("new Promise((done) => setTimeout(done, 500))")
@@ -82,7 +84,9 @@ class Page(unittest.TestCase):
             self.browser.press(*RIGHT)
         self.drawn(3)
         time = self.number("window.report.movies[0].data.frames[3].time")
-        self.assertAlmostEqual(float(self.number("document.querySelector('.timeline output').textContent").split()[0]), 1e6 * time, 1)
+        self.assertAlmostEqual(
+            float(self.number("document.querySelector('.timeline output').textContent").split()[0]), 1e6 * time, 1
+        )
 
     def test_buttons_are_reached_and_pressed_by_keys(self):
         self.number("document.querySelector('.play').focus()")
@@ -91,8 +95,10 @@ class Page(unittest.TestCase):
         self.number("window.report.movies[0].stop()")
         self.browser.press(*TAB)
         self.assertEqual(self.number("document.activeElement.getAttribute('aria-label')"), "One picture back")
-        unlabelled = self.number("[...document.querySelectorAll('button, input, select')].filter((each) => each.offsetHeight && "
-                                 "!(each.getAttribute('aria-label') || each.closest('label') || each.textContent.trim())).length")
+        unlabelled = self.number(
+            "[...document.querySelectorAll('button, input, select')].filter((each) => each.offsetHeight && "
+            "!(each.getAttribute('aria-label') || each.closest('label') || each.textContent.trim())).length"
+        )
         self.assertEqual(unlabelled, 0)
 
     def test_every_field_has_a_picture_of_its_own(self):
@@ -101,7 +107,9 @@ class Page(unittest.TestCase):
         self.drawn(frame)
         pictures = set()
         for key in ("fluid.pressure", "fluid.void_fraction", "fluid.speed"):
-            self.number(f"(() => {{ const s = document.querySelector('.movie select'); s.value = '{key}'; s.dispatchEvent(new Event('change')); }})()")
+            self.number(
+                f"(() => {{ const s = document.querySelector('.movie select'); s.value = '{key}'; s.dispatchEvent(new Event('change')); }})()"
+            )
             self.browser.wait(f"document.querySelector('.movie').dataset.drawn === '{frame} {key}'")
             pictures.add(self.number(self.PICTURE))
         self.assertEqual(len(pictures), 3)
@@ -110,7 +118,9 @@ class Page(unittest.TestCase):
         self.number("window.report.movies[0].go(4)")
         self.drawn(4)
         before = self.number(self.PICTURE)
-        self.number("(() => { const m = window.report.movies[0]; m.high.value = String(Number(m.high.value) / 3); m.high.dispatchEvent(new Event('change')); })()")
+        self.number(
+            "(() => { const m = window.report.movies[0]; m.high.value = String(Number(m.high.value) / 3); m.high.dispatchEvent(new Event('change')); })()"
+        )
         self.number("new Promise((done) => setTimeout(done, 300))")
         self.assertNotEqual(self.number(self.PICTURE), before)
 
@@ -118,8 +128,10 @@ class Page(unittest.TestCase):
         """What is read at a place is the run's own pressure there, to the steps of 8 bits."""
         self.number("window.report.movies[0].go(3)")
         self.drawn(3)
-        x, y = self.number("(() => { const m = window.report.movies[0], b = m.canvas.getBoundingClientRect(); m.canvas.scrollIntoView({block: 'center', behavior: 'instant'});"
-                           " const c = m.canvas.getBoundingClientRect(); return [c.left + m.last.x(-0.03), c.top + m.last.y(0.02)]; })()")
+        x, y = self.number(
+            "(() => { const m = window.report.movies[0], b = m.canvas.getBoundingClientRect(); m.canvas.scrollIntoView({block: 'center', behavior: 'instant'});"
+            " const c = m.canvas.getBoundingClientRect(); return [c.left + m.last.x(-0.03), c.top + m.last.y(0.02)]; })()"
+        )
         self.browser.call("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": x, "y": y})
         self.browser.wait("document.querySelector('.readout').textContent")
         said = self.number("document.querySelector('.readout').textContent")
@@ -147,8 +159,10 @@ class Page(unittest.TestCase):
 
     def test_charts_zoom_by_dragging(self):
         chart = "window.report.charts[0]"
-        left, top, width, height = self.number(f"(() => {{ {chart}.plot.scrollIntoView({{block: 'center', behavior: 'instant'}}); const r = {chart}.plot.getBoundingClientRect();"
-                                               " return [r.left, r.top, r.width, r.height]; })()")
+        left, top, width, height = self.number(
+            f"(() => {{ {chart}.plot.scrollIntoView({{block: 'center', behavior: 'instant'}}); const r = {chart}.plot.getBoundingClientRect();"
+            " return [r.left, r.top, r.width, r.height]; })()"
+        )
         before = self.number(f"{chart}.graph.xAxisRange()")
         self.browser.drag((left + 0.3 * width, top + 0.5 * height), (left + 0.6 * width, top + 0.5 * height))
         low, high = self.number(f"{chart}.graph.xAxisRange()")
@@ -171,14 +185,18 @@ class Page(unittest.TestCase):
             self.browser.size(width, 740, phone=True)
             self.open()
             self.assertLessEqual(self.number("document.documentElement.scrollWidth"), width)
-            small = self.number("[...document.querySelectorAll('main button, main select')].filter((each) => each.offsetHeight > 0 && each.offsetHeight < 30).length")
+            small = self.number(
+                "[...document.querySelectorAll('main button, main select')].filter((each) => each.offsetHeight > 0 && each.offsetHeight < 30).length"
+            )
             self.assertEqual(small, 0)
 
     def test_dark_screens_have_light_text(self):
         self.browser.scheme("dark")
         self.open()
-        ink, paper = (self.number(f"getComputedStyle(document.body).{name}.match(/\\d+/g).slice(0, 3).reduce((a, b) => a + Number(b), 0)")
-                      for name in ("color", "backgroundColor"))
+        ink, paper = (
+            self.number(f"getComputedStyle(document.body).{name}.match(/\\d+/g).slice(0, 3).reduce((a, b) => a + Number(b), 0)")
+            for name in ("color", "backgroundColor")
+        )
         self.assertGreater(ink, paper + 300)
         self.assertEqual(self.browser.console, [])
 
@@ -188,8 +206,10 @@ class Page(unittest.TestCase):
         self.assertGreater(data.count(b"/Type /Page"), 2)
 
     def test_the_scene_can_be_saved(self):
-        self.number("window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; }); return 'data:,'; };"
-                    "document.querySelector('[data-save]').click()")
+        self.number(
+            "window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; }); return 'data:,'; };"
+            "document.querySelector('[data-save]').click()"
+        )
         self.browser.wait("window.saved !== null")
         self.assertEqual(self.number("window.saved").strip(), (tube() / "resolved.toml").read_text().strip())
 

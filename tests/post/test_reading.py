@@ -29,8 +29,13 @@ class Tables(unittest.TestCase):
         np.testing.assert_array_equal(columns["time"], [0, 1])
 
     def test_what_is_no_table_is_said(self):
-        for text, words in (("", "no rows"), ("a,b\n", "no rows"), ("a,b\n1,x\n", "not a table of numbers"), ("a,b\n1\n", "columns"),
-                            ("a,b\n1,2\n3\n", "not a table of numbers")):
+        for text, words in (
+            ("", "no rows"),
+            ("a,b\n", "no rows"),
+            ("a,b\n1,x\n", "not a table of numbers"),
+            ("a,b\n1\n", "columns"),
+            ("a,b\n1,2\n3\n", "not a table of numbers"),
+        ):
             with self.assertRaisesRegex(Missing, words):
                 read_columns(self.write(text))
 
@@ -58,7 +63,7 @@ class RunFolder(unittest.TestCase):
             snapshot = snapshots.read(0)
             self.assertEqual(len(snapshot["position"]), run.summary["particles"])
             np.testing.assert_array_equal(snapshot["id"], np.arange(run.summary["particles"]))
-        structure, = run.structures()
+        (structure,) = run.structures()
         mesh = structure.read(0)
         self.assertEqual(len(mesh.cells), run.summary["cells"])
         self.assertTrue(all(len(cell) == 4 for cell in mesh.cells))
@@ -110,7 +115,7 @@ class RunFolder(unittest.TestCase):
         folder = changed_tube()
         shutil.copy(folder / "fields" / "structure_00000.hdf", folder / "outside.hdf")
         (folder / "fields" / "structure.hdf.series").write_text(json.dumps({"files": [{"name": "../outside.hdf", "time": 0}]}))
-        structure, = Run(folder).structures()
+        (structure,) = Run(folder).structures()
         self.assertEqual(structure.times, [])
 
 

@@ -21,10 +21,13 @@ HOSTILE = '</script><script>window.owned = 1</script><img src=x onerror="window.
 
 def data_of(text: str) -> dict:
     """The data that the page's script reads; NaN and Infinity, which JSON does not know, are refused."""
+
     def refused(word: str):
         raise ValueError(f"{word} in the data")
 
-    return json.loads(re.search(r'<script type="application/json" id="report-data">(.*?)</script>', text, re.S)[1], parse_constant=refused)
+    return json.loads(
+        re.search(r'<script type="application/json" id="report-data">(.*?)</script>', text, re.S)[1], parse_constant=refused
+    )
 
 
 def report_of(folder: Path) -> str:
@@ -47,7 +50,7 @@ class Encoding(unittest.TestCase):
     def test_png_holds_the_pixels(self):
         pixels = np.random.default_rng(1).integers(0, 256, (13, 7)).astype(np.uint8)
         data = png(pixels)
-        body = zlib.decompress(data[data.index(b"IDAT") + 4:data.index(b"IEND") - 8])
+        body = zlib.decompress(data[data.index(b"IDAT") + 4 : data.index(b"IEND") - 8])
         rows = np.frombuffer(body, dtype=np.uint8).reshape(13, 8)
         self.assertTrue((rows[:, 0] == 2).all())
         np.testing.assert_array_equal(np.cumsum(rows[:, 1:], axis=0, dtype=np.uint8), pixels)
@@ -76,9 +79,22 @@ class WholeRun(Page):
         cls.data = data_of(cls.text)
 
     def test_every_part_is_there(self):
-        self.says(self.text, "What was computed", "sphere of radius 7.396 mm", "cylinder of radius 44.45 mm, 228.6 mm long along z", "37.05 mm",
-                  "converged Tait", "Annealed 5086", "through &#x27;tube&#x27;", "Energy and conservation", "Wall time by part", "al-5086-o",
-                  "is of grade D", "undex run experiment.toml", "smoothing length at its bound")
+        self.says(
+            self.text,
+            "What was computed",
+            "sphere of radius 7.396 mm",
+            "cylinder of radius 44.45 mm, 228.6 mm long along z",
+            "37.05 mm",
+            "converged Tait",
+            "Annealed 5086",
+            "through &#x27;tube&#x27;",
+            "Energy and conservation",
+            "Wall time by part",
+            "al-5086-o",
+            "is of grade D",
+            "undex run experiment.toml",
+            "smoothing length at its bound",
+        )
         self.lacks(self.text, DAMAGED)
 
     def test_it_is_small_and_asks_for_nothing(self):
@@ -88,18 +104,20 @@ class WholeRun(Page):
         self.assertNotRegex(outside, r"""(src|href)=["'](https?:)?//""")
 
     def test_movie_frames_are_those_of_the_run(self):
-        movie, = self.data["movies"]
+        (movie,) = self.data["movies"]
         with Run(tube()).particles() as snapshots:
             np.testing.assert_allclose([frame["time"] for frame in movie["frames"]], snapshots.times)
         frame = movie["frames"][-1]
         self.assertEqual(set(frame["fluid"]["scales"]), {"pressure", "void_fraction", "speed"})
         with MidPlane(Run(tube())) as plane:
-            self.assertAlmostEqual(frame["fluid"]["scales"]["pressure"][2] / np.nanmax(plane.frame(len(plane) - 1).fluid.fields["pressure"]), 1.0)
+            self.assertAlmostEqual(
+                frame["fluid"]["scales"]["pressure"][2] / np.nanmax(plane.frame(len(plane) - 1).fluid.fields["pressure"]), 1.0
+            )
         counts = np.frombuffer(base64.b64decode(frame["structures"][0]["counts"]), dtype=np.uint8)
         self.assertEqual((len(counts), set(counts.tolist())), (Run(tube()).summary["cells"], {4}))
 
     def test_charts_hold_the_histories(self):
-        chart, = (chart for chart in self.data["charts"] if chart["title"] == "Pressure")
+        (chart,) = (chart for chart in self.data["charts"] if chart["title"] == "Pressure")
         y = np.frombuffer(base64.b64decode(chart["numbers"][chart["series"][0]["y"]]), dtype="<f4")
         history = Run(tube()).histories["midline_wall"]["pressure"]
         self.assertEqual(chart["y"], "pressure [MPa]")
@@ -148,7 +166,7 @@ class PartsOfARun(Page):
     def test_without_fluid_fields_the_structure_is_shown(self):
         folder = changed_tube()
         (folder / "fields" / "particles.h5part").unlink()
-        movie, = data_of(report_of(folder))["movies"]
+        (movie,) = data_of(report_of(folder))["movies"]
         self.assertTrue(all("fluid" not in frame and frame["structures"] for frame in movie["frames"]))
 
     def test_without_reference(self):
@@ -192,7 +210,9 @@ class PartsOfARun(Page):
         lines[5] = "nan,nan,nan"
         lines[6] = re.sub(r",.*", ",inf,nan", lines[6])
         path.write_text("\n".join(lines) + "\n")
-        (folder / "summary.json").write_text(re.sub(r'"energy_error": [^,]*', '"energy_error": NaN', (folder / "summary.json").read_text()))
+        (folder / "summary.json").write_text(
+            re.sub(r'"energy_error": [^,]*', '"energy_error": NaN', (folder / "summary.json").read_text())
+        )
         data_of(report_of(folder))
 
     def test_values_of_other_kinds_break_nothing(self):
@@ -223,8 +243,16 @@ class HostileNames(Page):
         scene = folder / "resolved.toml"
         scene.write_text(re.sub(r'title = ".*"', lambda _: f"title = '{HOSTILE}'", scene.read_text(), count=1))
         summary = json.loads((folder / "summary.json").read_text())
-        summary.update(warnings=[HOSTILE], program=HOSTILE, status=HOSTILE, message=HOSTILE, metrics={**summary["metrics"], HOSTILE: 1.0},
-                       missing={"x": HOSTILE}, clamps={HOSTILE: 3}, passes={HOSTILE: 1.0})
+        summary.update(
+            warnings=[HOSTILE],
+            program=HOSTILE,
+            status=HOSTILE,
+            message=HOSTILE,
+            metrics={**summary["metrics"], HOSTILE: 1.0},
+            missing={"x": HOSTILE},
+            clamps={HOSTILE: 3},
+            passes={HOSTILE: 1.0},
+        )
         (folder / "summary.json").write_text(json.dumps(summary))
         (folder / "history" / "a<b>.csv").write_text(f"time [s],{HOSTILE.replace(',', '')} [<i>]\n0,1\n1e-5,2\n")
         text = report_of(folder)
@@ -256,9 +284,11 @@ class Commands(Page):
     def test_a_study_and_its_runs(self):
         folder = temporary_folder()
         study = folder / "study.toml"
-        study.write_text(f'title = "{HOSTILE.replace(chr(34), chr(39))}"\nscene = "{CASES / "water_shock_tube" / "case.toml"}"\nerrors = ["l1_pressure", "energy_error"]\n'
-                         '[[axes]]\nname = "spacing"\nkey = "resolution.spacing"\nvalues = [0.004, 0.002]\n'
-                         '[[axes]]\nname = "scheme"\nkey = "scheme.name"\nvalues = ["riemann", "monaghan"]\n')
+        study.write_text(
+            f'title = "{HOSTILE.replace(chr(34), chr(39))}"\nscene = "{CASES / "water_shock_tube" / "case.toml"}"\nerrors = ["l1_pressure", "energy_error"]\n'
+            '[[axes]]\nname = "spacing"\nkey = "resolution.spacing"\nvalues = [0.004, 0.002]\n'
+            '[[axes]]\nname = "scheme"\nkey = "scheme.name"\nvalues = ["riemann", "monaghan"]\n'
+        )
         output = folder / "out"
         self.assertEqual(undex("study", study, "-q", "-o", output).returncode, 0)
         first = sorted((output / "runs").iterdir())[0]
@@ -287,14 +317,20 @@ class Commands(Page):
 
     def test_mistakes_end_with_exit_code_2(self):
         empty = temporary_folder()
-        for arguments in (("report", empty), ("report", empty / "nowhere"), ("plot", empty), ("report",), ("report", tube(), "-o", empty)):
+        for arguments in (
+            ("report", empty),
+            ("report", empty / "nowhere"),
+            ("plot", empty),
+            ("report",),
+            ("report", tube(), "-o", empty),
+        ):
             done = undex(*arguments)
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))
             self.assertNotIn("Traceback", done.stderr)
 
     def test_what_is_missing_is_named_with_its_package(self):
         fake = temporary_folder()
-        (fake / "h5py.py").write_text('raise ImportError("No module named \'h5py\'")')
+        (fake / "h5py.py").write_text("raise ImportError(\"No module named 'h5py'\")")
         done = undex("report", tube(), environment={"PYTHONPATH": str(fake)})
         self.assertEqual(done.returncode, 1)
         self.assertIn("apt-get install python3-numpy python3-h5py python3-matplotlib", done.stderr)
@@ -312,7 +348,9 @@ class Commands(Page):
 
         trap = temporary_folder()
         (trap / "numpy.py").write_text("raise SystemExit('trapped')")
-        done = subprocess.run([UNDEX, "report", changed_tube()], cwd=trap, capture_output=True, text=True, env=os.environ, timeout=120, check=False)
+        done = subprocess.run(
+            [UNDEX, "report", changed_tube()], cwd=trap, capture_output=True, text=True, env=os.environ, timeout=120, check=False
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 

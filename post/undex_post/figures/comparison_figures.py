@@ -24,8 +24,15 @@ def draw_comparison(folder: Path, dpi: int = 110) -> list[Path]:
         return kind != "energy" and not motion(kind, quantity) and not pressure(kind, quantity) and "mean" not in quantity
 
     title = " / ".join(comparison.runs)
-    jobs: dict[str, Job] = {name: lambda wanted=wanted: figure_of(panels(comparison, wanted), title, 3) for name, wanted in (
-        ("motion", motion), ("pressure", pressure), ("energy", lambda kind, _: kind == "energy"), ("other", other))}
+    jobs: dict[str, Job] = {
+        name: lambda wanted=wanted: figure_of(panels(comparison, wanted), title, 3)
+        for name, wanted in (
+            ("motion", motion),
+            ("pressure", pressure),
+            ("energy", lambda kind, _: kind == "energy"),
+            ("other", other),
+        )
+    }
     jobs["cost"] = lambda: cost_figure(comparison)
     pictures = comparison.folder / "pictures"
     return draw_all(jobs, pictures, dpi, [pictures / f"{name}.png" for name in jobs])
@@ -39,8 +46,11 @@ def panels(comparison: Comparison, wanted) -> list[Panel]:
         for number_of, run in enumerate(comparison.runs):
             if run in runs:
                 panel.curves.append(Curve(run, *runs[run], number_of))
-        panel.curves += [Curve(source, *runs[source], None, "line" if source == REFERENCE else "points")
-                         for source in [REFERENCE, *comparison.sources] if source in runs]
+        panel.curves += [
+            Curve(source, *runs[source], None, "line" if source == REFERENCE else "points")
+            for source in [REFERENCE, *comparison.sources]
+            if source in runs
+        ]
         found.append(panel)
     return found
 
@@ -48,17 +58,21 @@ def panels(comparison: Comparison, wanted) -> list[Panel]:
 def cost_figure(comparison: Comparison) -> Figure | None:
     """Bars: what each run cost, a panel a measure."""
     count = len(comparison.runs)
-    rows = [row for row in comparison.rows if row[0] == "cost" and row[1] != "threads" and any(row[3:3 + count])]
+    rows = [row for row in comparison.rows if row[0] == "cost" and row[1] != "threads" and any(row[3 : 3 + count])]
     if not rows:
         return None
     columns = min(3, len(rows))
     lines = -(-len(rows) // columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(4.6 * columns, (1.0 + 0.36 * count) * lines + 0.5), squeeze=False, layout="constrained")
-    for axis in axes.flat[len(rows):]:
+    figure, axes = plt.subplots(
+        lines, columns, figsize=(4.6 * columns, (1.0 + 0.36 * count) * lines + 0.5), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(rows) :]:
         axis.remove()
     for axis, row in zip(axes.flat, rows):
-        values = [float(cell) if cell else 0.0 for cell in row[3:3 + count]]
-        bars = axis.barh([plain(run) for run in comparison.runs], values, color=[COLOURS[i % len(COLOURS)] for i in range(count)], height=0.7)
+        values = [float(cell) if cell else 0.0 for cell in row[3 : 3 + count]]
+        bars = axis.barh(
+            [plain(run) for run in comparison.runs], values, color=[COLOURS[i % len(COLOURS)] for i in range(count)], height=0.7
+        )
         axis.bar_label(bars, [number(value) if value else "–" for value in values], padding=3, fontsize=8)
         axis.set_xlim(0, 1.25 * (max(values) or 1.0))
         axis.set_title(row[1] + (f" [{row[2]}]" if row[2] else ""), fontsize=10, loc="left")

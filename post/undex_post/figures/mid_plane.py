@@ -47,8 +47,13 @@ def mid_plane_figure(run: Run, wanted: list[float]) -> Figure | None:
             _matter(axis, plane, frame)
             _frame(axis, plane, frame.time)
             figure.colorbar(shown, ax=axis, aspect=18, pad=0.01).ax.tick_params(labelsize=7)
-        figure.suptitle(plain(f"{run.label()}\npressure [MPa] in {plane.section.words}, {AXES[plane.section.axes[0]]} to the right, mm; "
-                              "white: cavitated; grey: structures and solids; white lines: between bodies"), fontsize=9.5)
+        figure.suptitle(
+            plain(
+                f"{run.label()}\npressure [MPa] in {plane.section.words}, {AXES[plane.section.axes[0]]} to the right, mm; "
+                "white: cavitated; grey: structures and solids; white lines: between bodies"
+            ),
+            fontsize=9.5,
+        )
     return figure
 
 
@@ -69,12 +74,18 @@ def solids_figure(run: Run, wanted: list[float], quantity: str) -> Figure | None
             shown = _field(axis, plane, frame.solids, factor * frame.solids.fields[quantity], 0, factor * top, "inferno")
             _frame(axis, plane, frame.time)
         figure.colorbar(shown, ax=list(axes), aspect=30, pad=0.01).ax.tick_params(labelsize=7)
-        figure.suptitle(plain(f"{run.label()}\n{label}{f' [{shown_unit}]' if shown_unit else ''} in {plane.section.words}, "
-                              f"{AXES[plane.section.axes[0]]} to the right, mm"), fontsize=9.5)
+        figure.suptitle(
+            plain(
+                f"{run.label()}\n{label}{f' [{shown_unit}]' if shown_unit else ''} in {plane.section.words}, "
+                f"{AXES[plane.section.axes[0]]} to the right, mm"
+            ),
+            fontsize=9.5,
+        )
     return figure
 
 
 # ------------------------------------------------------------------------------------------------ parts of a picture
+
 
 def _box(plane: MidPlane) -> tuple[list[float], list[float]]:
     """Lowest and highest place of the whole picture [mm]."""
@@ -88,8 +99,13 @@ def _axes(plane: MidPlane, count: int) -> tuple[Figure, np.ndarray]:
     columns = min(2 if aspect < 0.6 else 4, count)
     rows = -(-count // columns)
     width = min(14, 8 * columns)
-    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
-                                figsize=(width, (width / columns - 1.2) * aspect * rows + 0.45 * rows + 0.6))
+    figure, axes = plt.subplots(
+        rows,
+        columns,
+        squeeze=False,
+        layout="constrained",
+        figsize=(width, (width / columns - 1.2) * aspect * rows + 0.45 * rows + 0.6),
+    )
     for axis in axes.flat[count:]:
         axis.remove()
     return figure, axes.flat[:count]
@@ -98,7 +114,12 @@ def _axes(plane: MidPlane, count: int) -> tuple[Figure, np.ndarray]:
 def _frame(axis: Axes, plane: MidPlane, time: float) -> None:
     low, high = _box(plane)
     margin = 0.02 * max(high[0] - low[0], high[1] - low[1])
-    axis.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal", title=f"{1e6 * time:.1f} µs")
+    axis.set(
+        xlim=(low[0] - margin, high[0] + margin),
+        ylim=(low[1] - margin, high[1] + margin),
+        aspect="equal",
+        title=f"{1e6 * time:.1f} µs",
+    )
     axis.set_facecolor("0.93")
     axis.tick_params(labelsize=7)
 
@@ -109,8 +130,16 @@ def _mirrors(plane: MidPlane) -> list[np.ndarray]:
     return [np.array([a, b]) for a in ((1, -1) if across else (1,)) for b in ((1, -1) if up else (1,))]
 
 
-def _field(axis: Axes, plane: MidPlane, layer: Layer, values: np.ndarray, low: float, high: float, colours: str,
-           white: np.ndarray | None = None):
+def _field(
+    axis: Axes,
+    plane: MidPlane,
+    layer: Layer,
+    values: np.ndarray,
+    low: float,
+    high: float,
+    colours: str,
+    white: np.ndarray | None = None,
+):
     """The field within the outlines of its material, white where `white` is above CAVITATED, and the surfaces between bodies."""
     shown = None
     (left, bottom), (right, top) = plane.grid.low, plane.grid.high
@@ -118,17 +147,36 @@ def _field(axis: Axes, plane: MidPlane, layer: Layer, values: np.ndarray, low: f
         outlines = [1e3 * factors * line for line in layer.outlines]
         if not outlines:
             continue
-        codes = [code for line in outlines for code in [Outline.MOVETO] + [Outline.LINETO] * (len(line) - 2) + [Outline.CLOSEPOLY]]
+        codes = [
+            code for line in outlines for code in [Outline.MOVETO] + [Outline.LINETO] * (len(line) - 2) + [Outline.CLOSEPOLY]
+        ]
         patch = PathPatch(Outline(np.concatenate(outlines), codes), facecolor="none", edgecolor="none", transform=axis.transData)
         axis.add_patch(patch)
         extent = [1e3 * factors[0] * left, 1e3 * factors[0] * right, 1e3 * factors[1] * bottom, 1e3 * factors[1] * top]
-        shown = axis.imshow(np.nan_to_num(values), extent=extent, origin="lower", vmin=low, vmax=high, cmap=colours, interpolation="bilinear",
-                            zorder=1.5)
+        shown = axis.imshow(
+            np.nan_to_num(values),
+            extent=extent,
+            origin="lower",
+            vmin=low,
+            vmax=high,
+            cmap=colours,
+            interpolation="bilinear",
+            zorder=1.5,
+        )
         shown.set_clip_path(patch)
         if white is not None and (white > CAVITATED).any():
             # Up to a cell beyond the edges, so that no seam shows where images meet.
-            u, v = (np.concatenate([each[:1] - plane.grid.pixel, each, each[-1:] + plane.grid.pixel]) for each in plane.grid.middles())
-            holes = axis.contourf(1e3 * factors[0] * u, 1e3 * factors[1] * v, np.pad(white, 1, mode="edge"), levels=[CAVITATED, 2.0], colors="white", zorder=1.6)
+            u, v = (
+                np.concatenate([each[:1] - plane.grid.pixel, each, each[-1:] + plane.grid.pixel]) for each in plane.grid.middles()
+            )
+            holes = axis.contourf(
+                1e3 * factors[0] * u,
+                1e3 * factors[1] * v,
+                np.pad(white, 1, mode="edge"),
+                levels=[CAVITATED, 2.0],
+                colors="white",
+                zorder=1.6,
+            )
             for collection in holes.collections:
                 collection.set_clip_path(patch)
     lines = [1e3 * factors * line for line in layer.interfaces for factors in _mirrors(plane)]
@@ -141,9 +189,25 @@ def _matter(axis: Axes, plane: MidPlane, frame: Frame) -> None:
     """Structures and solids in grey, obstacles as lines."""
     for factors in _mirrors(plane):
         for cut in frame.structures:
-            axis.add_collection(PolyCollection([1e3 * factors * polygon for polygon in cut.polygons], facecolors="0.45", edgecolors="0.2",
-                                               linewidths=0.2, zorder=4))
-        axis.add_collection(LineCollection([1e3 * factors * segment for segment in frame.obstacles], colors="black", linewidths=1.0, zorder=4))
+            axis.add_collection(
+                PolyCollection(
+                    [1e3 * factors * polygon for polygon in cut.polygons],
+                    facecolors="0.45",
+                    edgecolors="0.2",
+                    linewidths=0.2,
+                    zorder=4,
+                )
+            )
+        axis.add_collection(
+            LineCollection([1e3 * factors * segment for segment in frame.obstacles], colors="black", linewidths=1.0, zorder=4)
+        )
         if frame.solids is not None:
-            axis.add_collection(PolyCollection([1e3 * factors * line for line in frame.solids.outlines], facecolors="0.45", edgecolors="0.2",
-                                               linewidths=0.3, zorder=4))
+            axis.add_collection(
+                PolyCollection(
+                    [1e3 * factors * line for line in frame.solids.outlines],
+                    facecolors="0.45",
+                    edgecolors="0.2",
+                    linewidths=0.3,
+                    zorder=4,
+                )
+            )

@@ -12,7 +12,9 @@ def draw_panel(axis: Axes, panel: Panel) -> None:
     runs, references = 0, 0
     for curve in scaled.curves:
         if curve.kind == "points":
-            style = dict(ls="", marker=MARKERS[references % len(MARKERS)], ms=5, mfc="none", color=COLOURS[(1 + references) % len(COLOURS)])
+            style = dict(
+                ls="", marker=MARKERS[references % len(MARKERS)], ms=5, mfc="none", color=COLOURS[(1 + references) % len(COLOURS)]
+            )
             if curve.run is not None:
                 style = dict(ls="", marker=".", ms=2.5, color=COLOURS[runs % len(COLOURS)], rasterized=True)
         elif curve.run is None:
@@ -35,8 +37,10 @@ def figure_of(panels: list[Panel], title: str, columns: int = 2) -> Figure | Non
         return None
     columns = min(columns, len(panels))
     rows = -(-len(panels) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(max(6.0 * columns, 8.0), 3.3 * rows + 0.5), squeeze=False, layout="constrained")
-    for axis in axes.flat[len(panels):]:
+    figure, axes = plt.subplots(
+        rows, columns, figsize=(max(6.0 * columns, 8.0), 3.3 * rows + 0.5), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(panels) :]:
         axis.remove()
     for axis, panel in zip(axes.flat, panels):
         draw_panel(axis, panel)

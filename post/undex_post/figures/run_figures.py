@@ -8,8 +8,19 @@ from .mid_plane import PAPER_TIMES, mid_plane_figure, solids_figure
 from .panels import figure_of
 from .style import Job, draw_all
 
-NAMES = ("histories", "references", "energy", "bodies", "lines", "profile", "mid_plane", "fields", "solids_plastic_strain", "solids_von_mises",
-         "solids_speed")
+NAMES = (
+    "histories",
+    "references",
+    "energy",
+    "bodies",
+    "lines",
+    "profile",
+    "mid_plane",
+    "fields",
+    "solids_plastic_strain",
+    "solids_von_mises",
+    "solids_speed",
+)
 
 
 def draw_run(folder: Path, times: list[float] | None = None, dpi: int = 110) -> list[Path]:
@@ -25,7 +36,8 @@ def draw_run(folder: Path, times: list[float] | None = None, dpi: int = 110) -> 
         "energy": lambda: figure_of(histories.energy_panels(runs), run.label()),
         "bodies": lambda: figure_of(histories.part_panels(runs), run.label()),
         "lines": lambda: figure_of(histories.line_panels(run), run.label()),
-        "profile": lambda: figure_of(histories.profile_panels(run), run.label(), 1)}
+        "profile": lambda: figure_of(histories.profile_panels(run), run.label(), 1),
+    }
     if run.is_on_a_line:
         jobs["fields"] = lambda: figure_of(histories.coordinate_panels(run), run.label())
     else:

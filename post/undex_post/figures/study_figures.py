@@ -11,10 +11,19 @@ from ..errors import Missing
 from ..study import Study
 from .style import COLOURS, LINES, MARKERS, Job, draw_all, file_name, plain, plt
 
-LEDGERS = [("energy_error", "energy"), ("momentum_error", "momentum"), ("mass_error", "mass"),
-           ("interface_energy_error", "interface energy"), ("interface_impulse_error", "interface impulse")]
-OVERVIEW = [("cpu_time_s", "CPU time [s]"), ("bytes_per_particle", "bytes a particle"), ("updates", "million particle updates a CPU second"),
-            ("interactions", "million neighbours a CPU second")]
+LEDGERS = [
+    ("energy_error", "energy"),
+    ("momentum_error", "momentum"),
+    ("mass_error", "mass"),
+    ("interface_energy_error", "interface energy"),
+    ("interface_impulse_error", "interface impulse"),
+]
+OVERVIEW = [
+    ("cpu_time_s", "CPU time [s]"),
+    ("bytes_per_particle", "bytes a particle"),
+    ("updates", "million particle updates a CPU second"),
+    ("interactions", "million neighbours a CPU second"),
+]
 _LEGEND = dict(frameon=False, fontsize=8.5, handlelength=3.2)
 
 
@@ -51,7 +60,12 @@ def shown_number(value: float, _=None) -> str:
 def _style(study: Study, curve: str) -> dict:
     colour, line, marker = study.looks()[curve]
     paint = COLOURS[colour % len(COLOURS)]
-    return {"color": paint, "ls": LINES[line % 4], "marker": MARKERS[marker % len(MARKERS)], "mfc": "white" if line % 2 else paint}
+    return {
+        "color": paint,
+        "ls": LINES[line % 4],
+        "marker": MARKERS[marker % len(MARKERS)],
+        "mfc": "white" if line % 2 else paint,
+    }
 
 
 def _logarithmic(axis: Axes, which: str) -> None:
@@ -92,9 +106,15 @@ def cost_figure(study: Study, problem: str, error: str) -> Figure | None:
     for curve, points in curves.items():
         times, values = [p[0] for p in points], [p[1] for p in points]
         axis.plot(times, values, lw=1.5, ms=6.5, label=plain(curve), zorder=3, **_style(study, curve))
-        for i in ({0, len(points) - 1} if study.resolution and len(points) > 1 else ()):  # the ends say which resolution they are
-            axis.annotate(points[i][2][study.resolution], (times[i], values[i]), textcoords="offset points", xytext=(6, 5), fontsize=7,
-                          color=_style(study, curve)["color"])
+        for i in {0, len(points) - 1} if study.resolution and len(points) > 1 else ():  # the ends say which resolution they are
+            axis.annotate(
+                points[i][2][study.resolution],
+                (times[i], values[i]),
+                textcoords="offset points",
+                xytext=(6, 5),
+                fontsize=7,
+                color=_style(study, curve)["color"],
+            )
     front = study.front(problem, error)
     if front:
         times, values = np.array(front).T
@@ -145,13 +165,17 @@ def panels_figure(study: Study, problem: str, x: str, quantities: list[tuple[str
         return None
     columns = min(2, len(present))
     lines = -(-len(present) // columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(4.6 * columns + 3.0, 3.8 * lines + 0.3), squeeze=False, layout="constrained")
-    for axis in axes.flat[len(present):]:
+    figure, axes = plt.subplots(
+        lines, columns, figsize=(4.6 * columns + 3.0, 3.8 * lines + 0.3), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(present) :]:
         axis.remove()
     handles = {}
     for axis, (label, curves) in zip(axes.flat, present):
         for curve, points in curves.items():
-            handles[plain(curve)], = axis.plot([p[0] for p in points], [p[1] for p in points], lw=1.5, ms=6, **_style(study, curve))
+            (handles[plain(curve)],) = axis.plot(
+                [p[0] for p in points], [p[1] for p in points], lw=1.5, ms=6, **_style(study, curve)
+            )
         axis.set(xlabel=_resolution_label(study) if x == study.resolution else "CPU time [s]")
         _finish(axis, label)
     axes[0, -1].legend(list(handles.values()), list(handles), loc="upper left", bbox_to_anchor=(1.01, 1.0), **_LEGEND)

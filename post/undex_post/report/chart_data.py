@@ -38,6 +38,14 @@ class ChartData:
             else:
                 style = {"colour": index, "dash": index // 7}
             series.append({"label": curve.label, "kind": curve.kind, "x": stored(thin.x), "y": stored(thin.y), **style})
-        self.charts.append({"title": scaled.title, "x": axis_label(scaled.x_label, scaled.x_unit), "time": panel.x_unit == "s",
-                            "y": axis_label(scaled.quantity, scaled.unit), "numbers": numbers, "series": series})
+        self.charts.append(
+            {
+                "title": scaled.title,
+                "x": axis_label(scaled.x_label, scaled.x_unit),
+                "time": panel.x_unit == "s",
+                "y": axis_label(scaled.quantity, scaled.unit),
+                "numbers": numbers,
+                "series": series,
+            }
+        )
         return len(self.charts) - 1

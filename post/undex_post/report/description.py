@@ -7,12 +7,28 @@ from ..run import Run
 from ..shapes import NotDrawable, Shape
 from ..units import number, percent, quantity
 
-_DIMENSIONS = {"axisymmetric": "axisymmetric (two coordinates)", "spherical": "spherical (one coordinate)", "plane": "plane (one coordinate)",
-               1: "one-dimensional", 2: "two-dimensional", 3: "three-dimensional"}
-_KERNELS = {"wendland_c2": "Wendland's C2", "wendland_c4": "Wendland's C4", "wendland_c6": "Wendland's C6", "gaussian": "Gaussian",
-            "cubic_spline": "cubic spline", "quintic_spline": "quintic spline"}
-_STATUS = {"done": ("finished", "good"), "stopped": ("stopped by the numerics", "bad"), "interrupted": ("interrupted", "warn"),
-           "failed": ("failed", "bad")}
+_DIMENSIONS = {
+    "axisymmetric": "axisymmetric (two coordinates)",
+    "spherical": "spherical (one coordinate)",
+    "plane": "plane (one coordinate)",
+    1: "one-dimensional",
+    2: "two-dimensional",
+    3: "three-dimensional",
+}
+_KERNELS = {
+    "wendland_c2": "Wendland's C2",
+    "wendland_c4": "Wendland's C4",
+    "wendland_c6": "Wendland's C6",
+    "gaussian": "Gaussian",
+    "cubic_spline": "cubic spline",
+    "quintic_spline": "quintic spline",
+}
+_STATUS = {
+    "done": ("finished", "good"),
+    "stopped": ("stopped by the numerics", "bad"),
+    "interrupted": ("interrupted", "warn"),
+    "failed": ("failed", "bad"),
+}
 
 
 def status(run: Run) -> tuple[str, str]:
@@ -32,7 +48,10 @@ def lead(run: Run) -> str:
     matter = [f"{count:,} {what}" for count, what in counted if isinstance(count, int) and count]
     spacing = run.setting("resolution.spacing")
     if matter:
-        parts.append(" and ".join(matter) + (f" at a spacing of {quantity(spacing, 'm')}" if spacing and matter[0].endswith("particles") else ""))
+        parts.append(
+            " and ".join(matter)
+            + (f" at a spacing of {quantity(spacing, 'm')}" if spacing and matter[0].endswith("particles") else "")
+        )
     end = run.summary.get("time_s") or (run.energy["time"][-1] if run.energy and "time" in run.energy else None)
     if end:
         parts.append(f"computed to {quantity(end, 's')}")
@@ -63,6 +82,7 @@ def duration(seconds: float) -> str:
 
 
 # ------------------------------------------------------------------------------------------------ the scene
+
 
 def shape_words(shape: dict) -> str:
     """A shape with its sizes."""
@@ -128,14 +148,25 @@ def parts(run: Run) -> list[tuple[str, str]]:
         found.append((str(table.get("name", "obstacle")), "rigid " + shape_words(table.get("shape", {}))))
     for table in run.tables("walls"):
         faces = table.get("faces", {})
-        conditions = ", ".join(f"{face} {str(kind).replace('_', ' ')}" for face, kind in faces.items()) if isinstance(faces, dict) else ""
-        found.append((str(table.get("name", "wall")), f"rigid wall: {shape_words(table.get('shape', {}))}" + (f" ({conditions})" if conditions else "")))
+        conditions = (
+            ", ".join(f"{face} {str(kind).replace('_', ' ')}" for face, kind in faces.items()) if isinstance(faces, dict) else ""
+        )
+        found.append(
+            (
+                str(table.get("name", "wall")),
+                f"rigid wall: {shape_words(table.get('shape', {}))}" + (f" ({conditions})" if conditions else ""),
+            )
+        )
     return found
 
 
 def material_name(table: dict) -> str:
     material = table.get("material", {})
-    return str(material.get("name") or material.get("law") or "a material of its own") if isinstance(material, dict) else str(material)
+    return (
+        str(material.get("name") or material.get("law") or "a material of its own")
+        if isinstance(material, dict)
+        else str(material)
+    )
 
 
 def _mass(body: dict) -> float | None:
@@ -180,6 +211,7 @@ def constants(material: dict) -> list[tuple[str, str]]:
 
 # ------------------------------------------------------------------------------------------------ resolution
 
+
 def resolution(run: Run) -> list[tuple[str, str]]:
     """How finely everything is resolved: what, and by how much."""
     rows = []
@@ -199,8 +231,12 @@ def resolution(run: Run) -> list[tuple[str, str]]:
         own = table.get("spacing", spacing)
         if isinstance(own, (int, float)):
             rows.append((f"spacing of '{table.get('name', 'solid')}'", quantity(own, "m")))
-    for key, what in (("particles", "moving particles"), ("wall_particles", "particles of walls and images"), ("cells", "cells of structure"),
-                      ("steps", "steps")):
+    for key, what in (
+        ("particles", "moving particles"),
+        ("wall_particles", "particles of walls and images"),
+        ("cells", "cells of structure"),
+        ("steps", "steps"),
+    ):
         value = run.summary.get(key)
         if isinstance(value, int) and value:
             rows.append((what, f"{value:,}"))
@@ -213,12 +249,18 @@ def _charge_rows(run: Run, spacing: float) -> list[tuple[str, str]]:
         shape, name = body.get("shape", {}), body.get("name", "body")
         if not isinstance(shape, dict) or shape.get("type") != "sphere" or body.get("variable_h") is not True:
             continue
-        rows.append((f"across '{name}' at the start", f"{number(2 * float(shape['radius']) / spacing, 3)} spacings in its diameter"))
+        rows.append(
+            (f"across '{name}' at the start", f"{number(2 * float(shape['radius']) / spacing, 3)} spacings in its diameter")
+        )
         start = run.bodies.get(f"{name}.radius") if run.bodies else None
         if run.setting("start.kind") == "spherical" and start is not None:
-            rows.append((f"across '{name}' when particles take over",
-                         f"{number(2 * float(start[0]) / spacing, 3)} spacings, at {quantity(float(run.bodies['time'][0]), 's')}; "
-                         "until then it is computed in one dimension"))
+            rows.append(
+                (
+                    f"across '{name}' when particles take over",
+                    f"{number(2 * float(start[0]) / spacing, 3)} spacings, at {quantity(float(run.bodies['time'][0]), 's')}; "
+                    "until then it is computed in one dimension",
+                )
+            )
     return rows
 
 
@@ -254,16 +296,20 @@ def _wall_rows(table: dict, spacing: float | None) -> list[tuple[str, str]]:
     if isinstance(cells, dict) and "through" in cells:
         words.append(f"{cells['through']} cells")
     if thickness:
-        words.append(f"{quantity(thickness, 'm')} thick" + (f", {number(thickness / spacing, 3)} spacings of the fluid" if spacing else ""))
+        words.append(
+            f"{quantity(thickness, 'm')} thick" + (f", {number(thickness / spacing, 3)} spacings of the fluid" if spacing else "")
+        )
     return [(f"through '{name}'", ", ".join(words))] if words else []
 
 
 # ------------------------------------------------------------------------------------------------ what went on
 
-_CLAMPS = {"density": "a density that would have changed by more than a factor of e in half a step",
-           "smoothing": "a smoothing length at its bound (scheme.h_low or h_high); usual in gas that spreads far",
-           "filling": "a filling of space at its lower bound of 1/2; beside free surfaces and in gas that spreads far",
-           "energy": "gas whose energy fell below zero"}
+_CLAMPS = {
+    "density": "a density that would have changed by more than a factor of e in half a step",
+    "smoothing": "a smoothing length at its bound (scheme.h_low or h_high); usual in gas that spreads far",
+    "filling": "a filling of space at its lower bound of 1/2; beside free surfaces and in gas that spreads far",
+    "energy": "gas whose energy fell below zero",
+}
 
 
 def clamps(run: Run) -> list[str]:
@@ -282,9 +328,15 @@ def trust(run: Run) -> list[str]:
     said = []
     if run.energy is not None and "error" in run.energy and len(run.energy["error"]):
         errors = run.energy["error"]
-        said.append(f"The energy balance is off by {percent(float(errors[-1]), 3)} at the end, and by {percent(float(errors[np.abs(errors).argmax()]), 3)} at most.")
-    for key, what in (("mass_error", "Mass"), ("momentum_error", "Momentum"), ("interface_energy_error", "What the interface gives and receives in energy"),
-                      ("interface_impulse_error", "What the interface gives and receives in impulse")):
+        said.append(
+            f"The energy balance is off by {percent(float(errors[-1]), 3)} at the end, and by {percent(float(errors[np.abs(errors).argmax()]), 3)} at most."
+        )
+    for key, what in (
+        ("mass_error", "Mass"),
+        ("momentum_error", "Momentum"),
+        ("interface_energy_error", "What the interface gives and receives in energy"),
+        ("interface_impulse_error", "What the interface gives and receives in impulse"),
+    ):
         value = run.summary.get(key)
         if isinstance(value, (int, float)):
             said.append(f"{what} is off by {number(100 * value, 2)} %." if abs(value) > 1e-10 else f"{what} is kept to rounding.")

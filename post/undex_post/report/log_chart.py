@@ -22,6 +22,7 @@ class Point:
 @dataclass
 class Line:
     """A curve with points, in a colour and a dash."""
+
     label: str
     points: list[Point]
     colour: int = 0
@@ -31,6 +32,7 @@ class Line:
 @dataclass
 class LogChart:
     """Curves over x, both logarithmic; `front` is a staircase behind them, `slopes` are orders drawn as guides."""
+
     x_label: str
     y_label: str
     lines: list[Line]
@@ -44,8 +46,13 @@ class LogChart:
             return ""
         self._x = _range([point.x for point in points])
         self._y = _range([point.y for point in points])
-        parts = [f'<svg class="study" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="group" aria-label="{escape(self.y_label)} over {escape(self.x_label)}" '
-                 'font-family="system-ui, sans-serif">', *self._axes(), *self._front(), *self._slopes(points)]
+        parts = [
+            f'<svg class="study" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="group" aria-label="{escape(self.y_label)} over {escape(self.x_label)}" '
+            'font-family="system-ui, sans-serif">',
+            *self._axes(),
+            *self._front(),
+            *self._slopes(points),
+        ]
         for line in self.lines:
             parts += self._line(line)
         return "\n".join([*parts, "</svg>"])
@@ -58,14 +65,20 @@ class LogChart:
         parts = []
         for value in _ticks(*self._x):
             x, _ = self._at(value, 10 ** self._y[0])
-            parts.append(f'<line class="grid" x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>'
-                         f'<text class="tick" x="{x:.1f}" y="{HEIGHT - BOTTOM + 17}" text-anchor="middle">{number(value, 2)}</text>')
+            parts.append(
+                f'<line class="grid" x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>'
+                f'<text class="tick" x="{x:.1f}" y="{HEIGHT - BOTTOM + 17}" text-anchor="middle">{number(value, 2)}</text>'
+            )
         for value in _ticks(*self._y):
             _, y = self._at(10 ** self._x[0], value)
-            parts.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>'
-                         f'<text class="tick" x="{LEFT - 7}" y="{y + 4:.1f}" text-anchor="end">{number(value, 2)}</text>')
-        parts.append(f'<text x="{WIDTH - RIGHT}" y="{HEIGHT - 10}" text-anchor="end">{escape(self.x_label)}</text>'
-                     f'<text transform="translate(12 {TOP + 4}) rotate(-90)" text-anchor="end">{escape(self.y_label)}</text>')
+            parts.append(
+                f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}"/>'
+                f'<text class="tick" x="{LEFT - 7}" y="{y + 4:.1f}" text-anchor="end">{number(value, 2)}</text>'
+            )
+        parts.append(
+            f'<text x="{WIDTH - RIGHT}" y="{HEIGHT - 10}" text-anchor="end">{escape(self.x_label)}</text>'
+            f'<text transform="translate(12 {TOP + 4}) rotate(-90)" text-anchor="end">{escape(self.y_label)}</text>'
+        )
         return parts
 
     def _front(self) -> list[str]:
@@ -73,8 +86,12 @@ class LogChart:
             return []
         places = [self._at(*point) for point in sorted(self.front)]
         path = f"M{places[0][0]:.1f} {places[0][1]:.1f}" + "".join(f" H{x:.1f} V{y:.1f}" for x, y in places[1:])
-        rings = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="#888" stroke-width="1.2"/>' for x, y in places)
-        return [f'<path d="{path}" fill="none" stroke="#888" stroke-width="6" stroke-opacity=".3" stroke-linecap="round"/>{rings}']
+        rings = "".join(
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="9" fill="none" stroke="#888" stroke-width="1.2"/>' for x, y in places
+        )
+        return [
+            f'<path d="{path}" fill="none" stroke="#888" stroke-width="6" stroke-opacity=".3" stroke-linecap="round"/>{rings}'
+        ]
 
     def _slopes(self, points: list[Point]) -> list[str]:
         coarse, fine = max(point.x for point in points), min(point.x for point in points)
@@ -87,8 +104,10 @@ class LogChart:
             (x1, y1), (x2, y2) = (self._at(x, max(y, 10 ** self._y[0])) for x, y in ends)
             if ends[0][1] < 10 ** self._y[0]:  # cut where the chart ends
                 x1, y1 = self._at(coarse * (10 ** self._y[0] / low) ** (1 / order), 10 ** self._y[0])
-            parts.append(f'<path d="M{x1:.1f} {y1:.1f} L{x2:.1f} {y2:.1f}" stroke="#888" stroke-dasharray="4 3" fill="none"/>'
-                         f'<text class="tick" x="{(x1 + x2) / 2 + 5:.1f}" y="{(y1 + y2) / 2 + 13:.1f}">order {order}</text>')
+            parts.append(
+                f'<path d="M{x1:.1f} {y1:.1f} L{x2:.1f} {y2:.1f}" stroke="#888" stroke-dasharray="4 3" fill="none"/>'
+                f'<text class="tick" x="{(x1 + x2) / 2 + 5:.1f}" y="{(y1 + y2) / 2 + 13:.1f}">order {order}</text>'
+            )
         return parts
 
     def _line(self, line: Line) -> list[str]:
@@ -98,8 +117,10 @@ class LogChart:
         dash = f' stroke-dasharray="{DASHES[line.dash % len(DASHES)]}"' if line.dash % len(DASHES) else ""
         parts = [f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="1.8"{dash}/>']
         for point, (x, y) in zip(line.points, places):
-            parts.append(f'<a href="{escape(point.link)}" aria-label="{escape(point.words)}"><circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}">'
-                         f"<title>{escape(point.words)}</title></circle></a>")
+            parts.append(
+                f'<a href="{escape(point.link)}" aria-label="{escape(point.words)}"><circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}">'
+                f"<title>{escape(point.words)}</title></circle></a>"
+            )
         return parts
 
 
@@ -113,4 +134,9 @@ def _range(values: list[float]) -> tuple[float, float]:
 def _ticks(low: float, high: float) -> list[float]:
     """Round values between two powers of ten: decades, and parts of them where there are few."""
     parts = (1,) if high - low > 2.5 else (1, 2, 5) if high - low > 1 else (1, 1.5, 2, 3, 4, 5, 7)
-    return [part * 10.0**k for k in range(math.floor(low), math.ceil(high) + 1) for part in parts if low <= math.log10(part * 10.0**k) <= high]
+    return [
+        part * 10.0**k
+        for k in range(math.floor(low), math.ceil(high) + 1)
+        for part in parts
+        if low <= math.log10(part * 10.0**k) <= high
+    ]

@@ -60,9 +60,15 @@ class Movie:
         self._box = [grid.low[0], grid.low[1], grid.high[0], grid.high[1]]
         frames = [self._frame(plane.frame(int(i))) for i in chosen]
         self.left_out = len(plane) - len(frames)
-        self.data = {"grid": {"low": grid.low, "columns": grid.columns, "rows": grid.rows, "pixel": grid.pixel},
-                     "step": self._step, "box": self._box, "mirror": plane.section.mirrors(), "axes": self._axes(),
-                     "quantities": self._quantities(), "frames": frames}
+        self.data = {
+            "grid": {"low": grid.low, "columns": grid.columns, "rows": grid.rows, "pixel": grid.pixel},
+            "step": self._step,
+            "box": self._box,
+            "mirror": plane.section.mirrors(),
+            "axes": self._axes(),
+            "quantities": self._quantities(),
+            "frames": frames,
+        }
 
     def _axes(self) -> list[str]:
         return ["xyz"[axis] for axis in self._plane.section.axes]
@@ -85,13 +91,21 @@ class Movie:
             planes.append(pixels[::-1])  # pictures begin at the top
             known = layer.fields[name][np.isfinite(layer.fields[name])]
             self._note(f"{kind}.{name}", float(np.quantile(known, 0.998)) if len(known) else 0.0)
-        return {"png": base64_of(png(np.vstack(planes))) if planes else "", "scales": scales,
-                "outlines": self._lines(layer.outlines), "interfaces": self._lines(layer.interfaces)}
+        return {
+            "png": base64_of(png(np.vstack(planes))) if planes else "",
+            "scales": scales,
+            "outlines": self._lines(layer.outlines),
+            "interfaces": self._lines(layer.interfaces),
+        }
 
     def _structure(self, cut: StructureCut) -> dict:
         places = np.concatenate(cut.polygons)
-        self._box = [min(self._box[0], places[:, 0].min()), min(self._box[1], places[:, 1].min()),
-                     max(self._box[2], places[:, 0].max()), max(self._box[3], places[:, 1].max())]
+        self._box = [
+            min(self._box[0], places[:, 0].min()),
+            min(self._box[1], places[:, 1].min()),
+            max(self._box[2], places[:, 0].max()),
+            max(self._box[3], places[:, 1].max()),
+        ]
         fields = {}
         for name in (name for name in STRUCTURE if name in cut.fields):
             values, least, largest, power = quantised(cut.fields[name], QUANTITIES[name][2])
@@ -122,4 +136,3 @@ class Movie:
             factor, shown = scale_for(unit, top)
             said.append({"key": key, "label": label, "unit": shown, "factor": factor, "top": top, "largest": max(largest)})
         return said
-

@@ -32,7 +32,9 @@ def join(parts) -> Raw:
 
 def tag(name: str, *children: Any, **attributes: Any) -> Raw:
     """An element; a trailing underscore of an attribute's name is left out, others become hyphens."""
-    said = "".join(f' {key.rstrip("_").replace("_", "-")}="{escape(str(value))}"' for key, value in attributes.items() if value is not None)
+    said = "".join(
+        f' {key.rstrip("_").replace("_", "-")}="{escape(str(value))}"' for key, value in attributes.items() if value is not None
+    )
     return Raw(f"<{name}{said}>{''.join(html(child) for child in children)}</{name}>")
 
 
@@ -40,9 +42,18 @@ def table(head: list[Any], rows: list[list[Any]], numeric: set[int] = frozenset(
     """A table that scrolls by itself where it is wider than the screen. Columns of `numeric` stand to the right."""
     style = lambda column: "n" if column in numeric else None
     header = tag("tr", *(tag("th", cell, class_=style(i), scope="col") for i, cell in enumerate(head)))
-    body = [tag("tr", *(tag("td", cell, class_=style(i)) for i, cell in enumerate(row)), id=row_ids[k] if row_ids else None)
-            for k, row in enumerate(rows)]
-    return tag("div", tag("table", tag("thead", header), tag("tbody", *body)), class_="wide", tabindex="0", role="region", aria_label="table")
+    body = [
+        tag("tr", *(tag("td", cell, class_=style(i)) for i, cell in enumerate(row)), id=row_ids[k] if row_ids else None)
+        for k, row in enumerate(rows)
+    ]
+    return tag(
+        "div",
+        tag("table", tag("thead", header), tag("tbody", *body)),
+        class_="wide",
+        tabindex="0",
+        role="region",
+        aria_label="table",
+    )
 
 
 def notes(items: list[str]) -> Raw:
@@ -50,7 +61,11 @@ def notes(items: list[str]) -> Raw:
 
 
 def chips(items: list[tuple[str, str, str]]) -> Raw:
-    return tag("ul", *(tag("li", tag("b", value, class_=colour or None), tag("span", what)) for value, what, colour in items), class_="chips")
+    return tag(
+        "ul",
+        *(tag("li", tag("b", value, class_=colour or None), tag("span", what)) for value, what, colour in items),
+        class_="chips",
+    )
 
 
 def without_nan(value: Any) -> Any:
@@ -76,7 +91,9 @@ def _dygraphs() -> tuple[str, str]:
         script = (DYGRAPHS / "dygraph.min.js").read_text(encoding="utf-8")
         style = (DYGRAPHS / "dygraph.min.css").read_text(encoding="utf-8")
     except OSError as error:
-        raise Missing(f"{DYGRAPHS}: the charts' library is missing ({error.strerror}). Install it: apt-get install libjs-dygraphs") from error
+        raise Missing(
+            f"{DYGRAPHS}: the charts' library is missing ({error.strerror}). Install it: apt-get install libjs-dygraphs"
+        ) from error
     without_map = lambda text: re.sub(r"(//#|/\*#) sourceMappingURL=.*", "", text)
     return without_map(script), without_map(style)
 
@@ -87,7 +104,10 @@ def colour_tables() -> dict[str, str]:
     from matplotlib import colormaps
 
     places = np.linspace(0, 1, 256)
-    return {name: base64_of((255 * colormaps[known](places)[:, :3] + 0.5).astype(np.uint8).tobytes()) for name, known in COLOURS.items()}
+    return {
+        name: base64_of((255 * colormaps[known](places)[:, :3] + 0.5).astype(np.uint8).tobytes())
+        for name, known in COLOURS.items()
+    }
 
 
 def page(title: str, eyebrow: str, head: Raw, sections: list[tuple[str, str, Raw]], data: dict) -> str:

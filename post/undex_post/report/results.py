@@ -8,12 +8,18 @@ from ..tables import ReferenceTable
 from ..units import label_of_metric, number, percent, pretty_unit, scale_for, unit_of_metric
 
 # Metrics that are themselves what others are compared with: the word in their names, and who says so.
-_OWN_REFERENCES = {"1d": "one-dimensional solution", "exact": "exact solution", "similitude": "similitude law", "acoustic": "acoustic theory"}
+_OWN_REFERENCES = {
+    "1d": "one-dimensional solution",
+    "exact": "exact solution",
+    "similitude": "similitude law",
+    "acoustic": "acoustic theory",
+}
 
 
 @dataclass
 class Cell:
     """What a source says, and how far each run is from it."""
+
     text: str
     differences: list[str]
 
@@ -21,6 +27,7 @@ class Cell:
 @dataclass
 class Row:
     """A metric: its name with the unit, each run's value, and cells by source."""
+
     label: str
     values: list[str]
     sources: dict[str, Cell]
@@ -57,7 +64,9 @@ def _partner(name: str, names: list[str]) -> str | None:
     return None
 
 
-def _said_of(name: str, table: ReferenceTable | None, metrics: list[dict], partners: dict) -> dict[str, tuple[list[float | None], float]]:
+def _said_of(
+    name: str, table: ReferenceTable | None, metrics: list[dict], partners: dict
+) -> dict[str, tuple[list[float | None], float]]:
     """By source: the value that each run is compared with, and its uncertainty."""
     said: dict[str, tuple[list[float | None], float]] = {}
     if table and name in table.rows:
@@ -73,7 +82,11 @@ def _said_of(name: str, table: ReferenceTable | None, metrics: list[dict], partn
 def _row(name: str, values: list[float | None], said: dict, table: ReferenceTable | None) -> Row:
     listed = table.rows.get(name) if table else None
     if listed:
-        factor, unit, label = listed.scale, listed.unit.replace("us", "µs") if listed.unit == "us" else listed.unit, listed.label.replace(" us", " µs")
+        factor, unit, label = (
+            listed.scale,
+            listed.unit.replace("us", "µs") if listed.unit == "us" else listed.unit,
+            listed.label.replace(" us", " µs"),
+        )
     else:
         unit = unit_of_metric(name)
         factor, unit = scale_for(unit, max((abs(value) for value in values if value is not None), default=0.0))
@@ -92,13 +105,15 @@ def _row(name: str, values: list[float | None], said: dict, table: ReferenceTabl
         text = number(factor * references[0]) if references[0] is not None else "–"
         cells[source] = Cell(text + (f" ± {number(factor * spread, 2)}" if spread else ""), differences)
     unit = pretty_unit(unit)
-    return Row(f"{label} [{unit}]" if unit else label, [number(factor * value) if value is not None else "–" for value in values], cells)
+    return Row(
+        f"{label} [{unit}]" if unit else label, [number(factor * value) if value is not None else "–" for value in values], cells
+    )
 
 
 def missing(run: Run) -> list[tuple[str, str]]:
     """Metrics without a value, and why: metrics of one reason together."""
     reasons: dict[str, list[str]] = {}
     said = run.summary.get("missing") or {}
-    for name, reason in (said.items() if isinstance(said, dict) else []):
+    for name, reason in said.items() if isinstance(said, dict) else []:
         reasons.setdefault(str(reason), []).append(label_of_metric(name))
     return [(", ".join(names), reason) for reason, names in reasons.items()]

@@ -13,7 +13,14 @@ from ..units import number
 
 WIDTH = 640.0
 CELLS = 700  # along the longer side, for outlines
-FILLS = {"liquid": "#bcd9f0", "charge": "#e8883a", "gas": "#f2d08b", "structure": "#7d8794", "solid": "#9aa3ae", "obstacle": "#4d5560"}
+FILLS = {
+    "liquid": "#bcd9f0",
+    "charge": "#e8883a",
+    "gas": "#f2d08b",
+    "structure": "#7d8794",
+    "solid": "#9aa3ae",
+    "obstacle": "#4d5560",
+}
 
 
 class _Part:
@@ -127,6 +134,7 @@ def _outline(shape: Shape, section: Section, grid: Grid, low: np.ndarray, high: 
 
 # ------------------------------------------------------------------------------------------------ SVG
 
+
 def _svg(run: Run, section: Section, parts: list[_Part], low: np.ndarray, high: np.ndarray) -> str:
     size = high - low
     scale = min((WIDTH - 110) / size[0], 460 / size[1])
@@ -136,15 +144,21 @@ def _svg(run: Run, section: Section, parts: list[_Part], low: np.ndarray, high: 
     def at(point) -> str:
         return f"{left + (point[0] - low[0]) * scale:.1f} {top + (high[1] - point[1]) * scale:.1f}"
 
-    lines = [f'<svg viewBox="0 0 {WIDTH:.0f} {height:.0f}" role="img" font-family="system-ui, sans-serif" font-size="13" '
-             f'aria-label="{escape("Drawing of the scene: " + ", ".join(part.name for part in parts))}">']
+    lines = [
+        f'<svg viewBox="0 0 {WIDTH:.0f} {height:.0f}" role="img" font-family="system-ui, sans-serif" font-size="13" '
+        f'aria-label="{escape("Drawing of the scene: " + ", ".join(part.name for part in parts))}">'
+    ]
     for part in parts:
         path = " ".join("M" + " L".join(at(point) for point in line) + "Z" for line in part.lines)
         if part.kind == "wall":
-            lines.append(f'<path d="{path}" fill="none" stroke="#1d2433" stroke-width="2.4"><title>{escape(part.name)}</title></path>')
+            lines.append(
+                f'<path d="{path}" fill="none" stroke="#1d2433" stroke-width="2.4"><title>{escape(part.name)}</title></path>'
+            )
         else:
-            lines.append(f'<path d="{path}" fill="{FILLS[part.kind]}" fill-rule="evenodd" stroke="#1d2433" stroke-width=".7">'
-                         f"<title>{escape(part.name)}</title></path>")
+            lines.append(
+                f'<path d="{path}" fill="{FILLS[part.kind]}" fill-rule="evenodd" stroke="#1d2433" stroke-width=".7">'
+                f"<title>{escape(part.name)}</title></path>"
+            )
     lines += _symmetry_lines(section, low, high, at)
     lines += _probes(run, section, at, low, high)
     lines += _dimensions(section, low, high, left, top, scale)
@@ -159,7 +173,10 @@ def _symmetry_lines(section: Section, low, high, at) -> list[str]:
         ends.append(((0.0, low[1]), (0.0, high[1])))
     if up and low[1] < 0 < high[1]:
         ends.append(((low[0], 0.0), (high[0], 0.0)))
-    return [f'<path d="M{at(a)} L{at(b)}" stroke="#5b6474" stroke-width="1" stroke-dasharray="12 3 2 3" fill="none"/>' for a, b in ends]
+    return [
+        f'<path d="M{at(a)} L{at(b)}" stroke="#5b6474" stroke-width="1" stroke-dasharray="12 3 2 3" fill="none"/>'
+        for a, b in ends
+    ]
 
 
 def _probes(run: Run, section: Section, at, low, high) -> list[str]:
@@ -170,8 +187,10 @@ def _probes(run: Run, section: Section, at, low, high) -> list[str]:
         if point is None or (section.dimension == 3 and abs(point[section.normal] - section.level) > reach):
             continue
         x, y = at(point[list(section.axes)]).split()
-        marks.append(f'<path d="M{x} {y} m-4 -4 l8 8 m0 -8 l-8 8" stroke="#b3261e" stroke-width="1.6" fill="none">'
-                     f'<title>probe {escape(str(probe.get("name", "")))}</title></path>')
+        marks.append(
+            f'<path d="M{x} {y} m-4 -4 l8 8 m0 -8 l-8 8" stroke="#b3261e" stroke-width="1.6" fill="none">'
+            f'<title>probe {escape(str(probe.get("name", "")))}</title></path>'
+        )
     return marks
 
 
@@ -181,11 +200,15 @@ def _dimensions(section: Section, low, high, left: float, top: float, scale: flo
     right, bottom = left + scale * size[0], top + scale * size[1]
     y, x = bottom + 22, left - 20
     names = [AXES[axis] for axis in section.axes]
-    arrows = ('<path d="M{0:.1f} {1:.1f} L{2:.1f} {3:.1f}" stroke="#5b6474" fill="none"/>'
-              '<path d="M{0:.1f} {1:.1f} l{4} M{2:.1f} {3:.1f} l{5}" stroke="#5b6474" fill="none"/>')
-    return [arrows.format(left, y, right, y, "6 -3 m-6 3 l6 3", "-6 -3 m6 3 l-6 3"),
-            f'<text x="{(left + right) / 2:.1f}" y="{y + 18:.1f}" text-anchor="middle" fill="#1d2433">{number(1e3 * float(size[0]))} mm '
-            f'along {names[0]}</text>',
-            arrows.format(x, top, x, bottom, "-3 6 m3 -6 l3 6", "-3 -6 m3 6 l3 -6"),
-            f'<text transform="translate({x - 8:.1f} {(top + bottom) / 2:.1f}) rotate(-90)" text-anchor="middle" fill="#1d2433">'
-            f'{number(1e3 * float(size[1]))} mm along {names[1]}</text>']
+    arrows = (
+        '<path d="M{0:.1f} {1:.1f} L{2:.1f} {3:.1f}" stroke="#5b6474" fill="none"/>'
+        '<path d="M{0:.1f} {1:.1f} l{4} M{2:.1f} {3:.1f} l{5}" stroke="#5b6474" fill="none"/>'
+    )
+    return [
+        arrows.format(left, y, right, y, "6 -3 m-6 3 l6 3", "-6 -3 m6 3 l-6 3"),
+        f'<text x="{(left + right) / 2:.1f}" y="{y + 18:.1f}" text-anchor="middle" fill="#1d2433">{number(1e3 * float(size[0]))} mm '
+        f"along {names[0]}</text>",
+        arrows.format(x, top, x, bottom, "-3 6 m3 -6 l3 6", "-3 -6 m3 6 l3 -6"),
+        f'<text transform="translate({x - 8:.1f} {(top + bottom) / 2:.1f}) rotate(-90)" text-anchor="middle" fill="#1d2433">'
+        f"{number(1e3 * float(size[1]))} mm along {names[1]}</text>",
+    ]

@@ -25,8 +25,11 @@ class StudyReport:
     def text(self) -> str:
         """The HTML file."""
         study = self._study
-        sections = [("cost", "Error against cost", self._of_errors(self._cost)), ("order", "Error against resolution", join([self._of_errors(self._order), self._orders()])),
-                    ("runs", "The runs", self._runs())]
+        sections = [
+            ("cost", "Error against cost", self._of_errors(self._cost)),
+            ("order", "Error against resolution", join([self._of_errors(self._order), self._orders()])),
+            ("runs", "The runs", self._runs()),
+        ]
         if not study.resolution:
             del sections[1]
         return page(study.title, "undex report · study", self._head(), sections, {"charts": [], "movies": []})
@@ -38,8 +41,14 @@ class StudyReport:
             counts[row["status"]] = counts.get(row["status"], 0) + 1
         said = ", ".join(f"{count} {status}" for status, count in counts.items()) or "none"
         programs = sorted({row["program"] for row in study.rows if row.get("program")})
-        return join([tag("p", f"{len(study.rows)} runs ({said}) over {', '.join(study.axes) or 'no axis'}.", class_="lead"),
-                     tag("p", "Computed by " + "; ".join(programs) + f", in {study.folder.resolve()}.", class_="muted") if programs else Raw("")])
+        return join(
+            [
+                tag("p", f"{len(study.rows)} runs ({said}) over {', '.join(study.axes) or 'no axis'}.", class_="lead"),
+                tag("p", "Computed by " + "; ".join(programs) + f", in {study.folder.resolve()}.", class_="muted")
+                if programs
+                else Raw(""),
+            ]
+        )
 
     def _of_errors(self, chart) -> Raw:
         """A chart for each problem and error, with one legend."""
@@ -54,7 +63,13 @@ class StudyReport:
             charts = []
             for error in study.errors:
                 svg = chart(problem, error)
-                charts.append(tag("figure", tag("h3", error), Raw(svg) if svg else tag("p", "No run has a value above zero.", class_="muted")))
+                charts.append(
+                    tag(
+                        "figure",
+                        tag("h3", error),
+                        Raw(svg) if svg else tag("p", "No run has a value above zero.", class_="muted"),
+                    )
+                )
             parts.append(tag("div", *charts, class_="charts"))
         return join([self._legend(), *parts])
 
@@ -63,20 +78,31 @@ class StudyReport:
         for curve in self._study.curves:
             colour, dash, _ = self._looks[curve]
             stroke = f'<path d="M0 6 H28" stroke="{COLOURS[colour % len(COLOURS)]}" stroke-width="2.4" stroke-dasharray="{DASHES[dash % len(DASHES)]}"/>'
-            items.append(tag("span", Raw(f'<svg width="28" height="12" aria-hidden="true">{stroke}</svg> '), curve or self._study.title))
+            items.append(
+                tag("span", Raw(f'<svg width="28" height="12" aria-hidden="true">{stroke}</svg> '), curve or self._study.title)
+            )
         return tag("p", *items, class_="legend")
 
     def _line(self, curve: str, points: list[tuple[float, float, Row]]) -> Line:
         colour, dash, _ = self._looks[curve]
-        return Line(curve, [Point(x, y, f"{row['run']}: {number(x, 3)}, {number(y, 3)}", self._link(row)) for x, y, row in points], colour, dash)
+        return Line(
+            curve,
+            [Point(x, y, f"{row['run']}: {number(x, 3)}, {number(y, 3)}", self._link(row)) for x, y, row in points],
+            colour,
+            dash,
+        )
 
     def _cost(self, problem: str, error: str) -> str:
-        lines = [self._line(curve, points) for curve, points in self._study.points(problem, "cpu_time_s", f"error: {error}").items()]
+        lines = [
+            self._line(curve, points) for curve, points in self._study.points(problem, "cpu_time_s", f"error: {error}").items()
+        ]
         return LogChart("CPU time [s]", error, lines, self._study.front(problem, error)).svg()
 
     def _order(self, problem: str, error: str) -> str:
         resolution = self._study.resolution
-        lines = [self._line(curve, points) for curve, points in self._study.points(problem, resolution, f"error: {error}").items()]
+        lines = [
+            self._line(curve, points) for curve, points in self._study.points(problem, resolution, f"error: {error}").items()
+        ]
         return LogChart(f"{resolution} [m]" if resolution == "spacing" else resolution, error, lines, slopes=(1, 2)).svg()
 
     def _link(self, row: Row) -> str:
@@ -97,12 +123,27 @@ class StudyReport:
             name = tag("a", row["run"], href=link) if (link := self._report(row)) else row["run"]
             errors = [self._error(row, error) for error in study.errors]
             said = row["status"] + (f": {row['message']}" if row.get("message") else "")
-            rows.append([name, *(row.get(axis, "") for axis in study.axes), said, *errors, _shown(row.get("cpu_time_s")), _shown(row.get("particles"))])
+            rows.append(
+                [
+                    name,
+                    *(row.get(axis, "") for axis in study.axes),
+                    said,
+                    *errors,
+                    _shown(row.get("cpu_time_s")),
+                    _shown(row.get("particles")),
+                ]
+            )
         first = 2 + len(study.axes)
-        hint = "Bold: no run of the same problem is as good in both CPU time and this error, and better in one. A run's own report is linked where it " \
-               "exists (undex report of its folder, then this report again)."
-        return join([tag("p", hint, class_="muted"),
-                     table(head, rows, set(range(first, len(head))), [anchor(row["run"]) for row in study.rows])])
+        hint = (
+            "Bold: no run of the same problem is as good in both CPU time and this error, and better in one. A run's own report is linked where it "
+            "exists (undex report of its folder, then this report again)."
+        )
+        return join(
+            [
+                tag("p", hint, class_="muted"),
+                table(head, rows, set(range(first, len(head))), [anchor(row["run"]) for row in study.rows]),
+            ]
+        )
 
     @staticmethod
     def _error(row: Row, error: str) -> Raw | str:
@@ -113,8 +154,16 @@ class StudyReport:
         """The observed orders, a row a curve."""
         study = self._study
         shown = lambda order: "–" if math.isnan(order) else f"{order:.2f}"
-        rows = [[curve or study.title, *(shown(study.orders.get((error, curve), math.nan)) for error in study.errors)] for curve in study.curves]
-        return join([tag("h3", "Observed orders, by least squares"), table(["", *study.errors], rows, set(range(1, 1 + len(study.errors))))])
+        rows = [
+            [curve or study.title, *(shown(study.orders.get((error, curve), math.nan)) for error in study.errors)]
+            for curve in study.curves
+        ]
+        return join(
+            [
+                tag("h3", "Observed orders, by least squares"),
+                table(["", *study.errors], rows, set(range(1, 1 + len(study.errors)))),
+            ]
+        )
 
 
 def _shown(text: str | None) -> str:

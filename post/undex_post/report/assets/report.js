@@ -70,7 +70,7 @@
             tool("Whole", "Show the whole chart", () => this.reset()))),
         element("div", {class: "axis", text: data.y}), this.plot, element("div", {class: "axis x", text: data.x}), this.legend());
       this.draw();
-      redraws.push(() => this.draw());
+      redraws.push(() => this.recolour());
       if (data.time) timeCharts.push(this);
     }
     legend() {
@@ -108,7 +108,8 @@
       });
       return table;
     }
-    draw() {
+    // What depends on the colours of the page.
+    looks() {
       const each = {};
       this.data.series.forEach((series, i) => {
         each["s" + i] = {color: colourOf(series), strokePattern: dashOf(series), strokeWidth: series.colour < 0 ? 1.4 : 1.8};
@@ -117,21 +118,26 @@
           Object.assign(each["s" + i], {strokeWidth: 0, drawPoints: true, pointSize: 4, drawPointCallback: mark, drawHighlightPointCallback: mark});
         }
       });
-      const window = this.graph ? this.graph.xAxisRange() : null;
-      if (this.graph) this.graph.destroy();
+      return {series: each, gridLineColor: themed("--grid"), axisLineColor: themed("--line")};
+    }
+    draw() {
       const touch = Object.assign({}, Dygraph.defaultInteractionModel, {
         touchstart: (event, graph, context) => { if (event.touches.length > 1) Dygraph.defaultInteractionModel.touchstart(event, graph, context); }});
-      this.table = this.table || this.rows();
-      this.graph = new Dygraph(this.plot, this.table, {
-        labels: ["x", ...this.data.series.map((_, i) => "s" + i)], series: each, visibility: this.visible, connectSeparatedPoints: true,
-        legend: "never", interactionModel: touch, gridLineColor: themed("--grid"), axisLineColor: themed("--line"), highlightCircleSize: 3,
-        rightGap: 12, xRangePad: 4, yRangePad: 8, labelsKMB: false, animatedZooms: false,
+      this.graph = new Dygraph(this.plot, this.rows(), {
+        ...this.looks(), labels: ["x", ...this.data.series.map((_, i) => "s" + i)], visibility: this.visible, connectSeparatedPoints: true,
+        legend: "never", interactionModel: touch, highlightCircleSize: 3, rightGap: 12, xRangePad: 4, yRangePad: 8, labelsKMB: false, animatedZooms: false,
         axes: {x: {axisLabelFormatter: (x) => shown(x, 6), pixelsPerLabel: 70}, y: {axisLabelFormatter: (y) => shown(y, 5), axisLabelWidth: 58, pixelsPerLabel: 34}},
         highlightCallback: (event, x) => this.read(x), unhighlightCallback: () => this.read(NaN),
         zoomCallback: () => this.follow(), drawCallback: (graph, first) => { if (!first) this.follow(); }});
-      if (window && this.zoomed) this.graph.updateOptions({dateWindow: window});
       this.drawSwatches();
     }
+    recolour() {
+      this.graph.updateOptions(this.looks(), true);
+      this.graph.resize();
+      this.drawSwatches();
+    }
+    // Chromium prints a canvas that was drawn in "beforeprint" empty, unless it has been read since.
+    settle() { for (const canvas of this.plot.querySelectorAll("canvas")) canvas.getContext("2d").getImageData(0, 0, 1, 1); }
     read(x) {
       this.data.series.forEach((series, i) => {
         const value = Number.isFinite(x) ? interpolated(this.numbers[series.x], this.numbers[series.y], x) : NaN;
@@ -506,7 +512,12 @@
     });
   }
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-  window.addEventListener("beforeprint", redraw);
-  window.addEventListener("afterprint", redraw);
+  for (const [event, printing] of [["beforeprint", true], ["afterprint", false]]) {
+    window.addEventListener(event, () => {
+      document.documentElement.classList.toggle("printing", printing);
+      redraw();
+      if (printing) for (const chart of charts) chart.settle();
+    });
+  }
   window.report = {charts, movies, ready: true};
 })();
