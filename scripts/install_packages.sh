@@ -23,10 +23,12 @@ packages=(
   libbenchmark-dev       # bench/: Google Benchmark
   clang-format           # tests: the tree is laid out as .clang-format says
   valgrind               # tests: counts the instructions of a step
-  python3                # scripts/plot.py
-  python3-numpy          # scripts/plot.py
-  python3-matplotlib     # scripts/plot.py
-  python3-h5py           # scripts/plot.py reads the field files
+  python3                # post/: undex report and undex plot
+  python3-numpy          # post/
+  python3-matplotlib     # post/: pictures, colour maps, contours
+  python3-h5py           # post/: reads the field files
+  libjs-dygraphs         # post/: the charts of a report, copied into its page
+  chromium               # tests: opens reports, headless (414 MB with what it needs)
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

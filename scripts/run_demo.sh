@@ -28,7 +28,7 @@ build/release/undex run cases/al_tube_fem/experiment.toml -o "$output" --force
 run_time=$((SECONDS - run_start))
 
 echo "== pictures"
-for run in "${output}_octant" "$output"; do /usr/bin/python3 scripts/plot.py "$run"; done
+for run in "${output}_octant" "$output"; do build/release/undex plot "$run"; done
 
 echo
 echo "Results:  $output (summary.json, history/, fields/ for ParaView)"

@@ -104,8 +104,7 @@ void print_results(const scene::Study& study, const StudyTable& table, const std
     if (!row.message.empty() && row.status != "not run")
       std::printf("%s, %s: %s\n", row.name.c_str(), row.status.c_str(), row.message.c_str());
   std::printf("%s%s%s", missing_metrics(study, table).c_str(), other_programs(table, program).c_str(), left_over.c_str());
-  std::printf("%s and order.csv are written. Pictures: /usr/bin/python3 scripts/plot_study.py %s\n",
-              (folder / "study.csv").c_str(), folder.c_str());
+  std::printf("%s and order.csv are written. Report: undex report %s\n", (folder / "study.csv").c_str(), folder.c_str());
 }
 
 }  // namespace
