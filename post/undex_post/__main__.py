@@ -81,6 +81,8 @@ def _report(options: argparse.Namespace) -> int:
     output = options.output or (folders[0] / "report.html" if len(folders) == 1 else Path("report.html"))
     if output.is_dir():
         raise Missing(f"{output} is a folder; name a file, such as -o {output / 'report.html'}")
+    if output.is_file() and "Made by undex report" not in output.read_text(encoding="utf-8", errors="replace"):
+        raise Missing(f"{output} is there and is no report of undex; name another file with -o")
     if any(_is_study(folder) for folder in folders):
         if len(folders) > 1:
             raise Missing("a report is about one study, or about runs; give one folder of a study")

@@ -17,7 +17,7 @@ from .kernels import Kernel, kernel_named
 from .particles import FluidParticles
 from .run import AXES, Run
 from .section import Section
-from .snapshots import MeshSnapshots, ParticleSnapshots, speed
+from .snapshots import ParticleSnapshots, speed
 
 FULL = 0.4  # filling from which on a place counts as material; exactly 1/2 on a flat surface
 FLUID_FIELDS = ("pressure", "void_fraction", "speed", "density", "energy")

@@ -272,6 +272,16 @@ class Commands(Page):
         self.assertEqual(undex("report", folder, "-o", other).returncode, 0)
         self.assertTrue(other.is_file())
 
+    def test_a_file_that_is_no_report_stays(self):
+        other = temporary_folder() / "notes.html"
+        other.write_text("my only copy")
+        done = undex("report", tube(), "-o", other)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(other.read_text(), "my only copy")
+        report = temporary_folder() / "report.html"
+        for _ in range(2):  # a report takes the place of an older one
+            self.assertEqual(undex("report", tube(), "-o", report).returncode, 0)
+
     def test_plots_of_a_run(self):
         folder = changed_tube()
         (folder / "pictures").mkdir()
