@@ -44,7 +44,10 @@ def lead(run: Run) -> str:
     planes = run.setting("symmetry.planes", [])
     if planes:
         parts.append(f"symmetric about {' and '.join(f'{p} = 0' for p in planes)}")
-    counted = [(run.summary.get("particles"), "particles"), (run.summary.get("cells"), "cells of structure")]
+    counted = [
+        (run.summary.get("particles"), "particles"),
+        (run.summary.get("cells"), "cells" if run.is_on_a_line else "cells of structure"),
+    ]
     matter = [f"{count:,} {what}" for count, what in counted if isinstance(count, int) and count]
     spacing = run.setting("resolution.spacing")
     if matter:
@@ -217,7 +220,9 @@ def resolution(run: Run) -> list[tuple[str, str]]:
     rows = []
     spacing = run.setting("resolution.spacing")
     if run.is_on_a_line:
-        return [("cells at the end", number(run.summary.get("particles")))] if run.summary.get("particles") else []
+        rows = [("spacing at the start", quantity(spacing, "m"))] if isinstance(spacing, (int, float)) else []
+        names = (("particles", "particles"), ("cells", "cells at the end"), ("steps", "steps"))
+        return rows + [(what, f"{run.summary[key]:,}") for key, what in names if run.summary.get(key)]
     if isinstance(spacing, (int, float)) and spacing > 0:
         kernel, eta = str(run.setting("scheme.kernel", "wendland_c2")), run.setting("scheme.eta", 1.5)
         rows.append(("spacing of particles", quantity(spacing, "m")))

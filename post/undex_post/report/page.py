@@ -13,6 +13,7 @@ from ..errors import Missing
 from .movie import base64_of
 
 ASSETS = Path(__file__).parent / "assets"
+SCRIPTS = ("common.js", "chart.js", "movie.js", "page.js")  # in this order, in one scope
 DYGRAPHS = Path("/usr/share/javascript/dygraphs")
 COLOURS = {"viridis": "viridis", "cividis": "cividis", "magma": "magma", "blues": "Blues", "greys": "Greys_r", "strain": "YlOrRd"}
 
@@ -113,7 +114,8 @@ def colour_tables() -> dict[str, str]:
 def page(title: str, eyebrow: str, head: Raw, sections: list[tuple[str, str, Raw]], data: dict) -> str:
     """The whole file. A section is (identifier, heading, content); `data` goes to the script."""
     library, library_style = _dygraphs()
-    scripts = [_script(library), _script((ASSETS / "report.js").read_text(encoding="utf-8"))]
+    own = "".join((ASSETS / name).read_text(encoding="utf-8") for name in SCRIPTS)
+    scripts = [_script(library), _script(f'(function () {{\n"use strict";\n{own}}})();')]
     policy = f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src {' '.join(source for _, source in scripts)}"
     text = json.dumps(without_nan(data), allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     links = tag("nav", *(tag("a", heading, href=f"#{name}") for name, heading, _ in sections), aria_label="Sections")

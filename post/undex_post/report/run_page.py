@@ -41,7 +41,7 @@ class RunReport:
             ("computed", "What was computed", self._computed),
             ("resolution", "Resolution", self._resolution),
             ("results", "Results beside references", self._results),
-            ("mid-plane", "The mid-plane", self._mid_planes),
+            ("mid-plane", "Profiles" if all(run.is_on_a_line for run in self.runs) else "The mid-plane", self._mid_planes),
             ("histories", "Histories", self._histories),
             ("energy", "Energy and conservation", self._energy),
             ("steps", "Steps and cost", self._steps),

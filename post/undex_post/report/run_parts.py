@@ -77,7 +77,7 @@ def resolution(runs: list[Run], labels: list[str]) -> Raw:
     """How finely each run resolves what, and which settings differ."""
     names = list(dict.fromkeys(what for run in runs for what, _ in description.resolution(run)))
     if not names:
-        return tag("p", "Not known: resolved.toml is missing.")
+        return tag("p", "Not known: neither the scene nor the record says.")
     of_runs = [dict(description.resolution(run)) for run in runs]
     rows = [[name, *(each.get(name, "–") for each in of_runs)] for name in names]
     parts = [table(["", *(labels if len(runs) > 1 else ["this run"])], rows)]
