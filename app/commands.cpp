@@ -14,9 +14,12 @@
 #include "output/files.hpp"
 #include "output/folder_lock.hpp"
 #include "output/run_folder.hpp"
+#include "output/terminal.hpp"
+#include "output/text_table.hpp"
 #include "run/describe.hpp"
 #include "run/resume.hpp"
 #include "run/run.hpp"
+#include "run/trust.hpp"
 #include "scene/key_tables.hpp"
 #include "scene/scene.hpp"
 
@@ -90,14 +93,27 @@ run::RunOptions options_for(const scene::Scene& scene, const judge::Judge& judge
   return options;
 }
 
+/// What is computed, from where and to where.
+void say_what(const scene::Scene& scene, const run::RunOptions& options) {
+  if (options.verbosity < 0) return;
+  std::string space = std::to_string(scene.fluid.dimension) + "D";
+  if (scene.meridian) space = "about an axis";
+  if (scene.geometry == scene::Geometry::spherical) space = "along a radius";
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  std::printf("%s\n", output::inked(scene.title, output::Ink::bold).c_str());
+  std::printf("  %s, to %s, %d thread%s; %s -> %s\n\n", space.c_str(), output::with_unit(scene.end_time, "s").c_str(), threads,
+              threads == 1 ? "" : "s", scene.file.c_str(), options.output.c_str());
+}
+
 int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, const run::RunOptions& options) {
+  say_what(scene, options);
   run::Result result = run::compute(scene, options);
   const judge::Verdict verdict = verdict_of(judge, result);
   output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
   judge::write_tables(options.output, verdict);
   if (options.verbosity >= 0)
-    std::printf("%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
-                judge::missing_text(verdict.missing).c_str());
+    std::printf("%s%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
+                judge::missing_text(verdict.missing).c_str(), run::trust_text(result.record.trust).c_str());
   if (result.failure) std::rethrow_exception(result.failure);  // the record is kept all the same
   if (!result.not_saved.empty()) throw FileError(result.not_saved);
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);

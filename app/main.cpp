@@ -135,9 +135,25 @@ int dispatch(int argc, char** argv) {
   study_command->add_flag("--list", study_options.list,
                           "say which runs there are, which are there and which would be run; write nothing");
   study_command->add_flag("--again", study_options.again, "run also what is there");
+  CLI::Option* table = study_command->add_flag("--table", study_options.table, "write the tables of what is there; run nothing");
+  CLI::Option* shard =
+      study_command
+          ->add_option_function<std::string>(
+              "--shard", [&](const std::string& text) { study_options.shard = study::shard_of(text); },
+              "only the I-th of N shares of the runs; others compute theirs in the same folder, at the same time")
+          ->type_name("I/N")
+          ->excludes(table);
+  study_command
+      ->add_option_function<int>(
+          "--slurm", [&](int shards) { study_options.slurm = shards; },
+          "write study.slurm, a job array of N shards (0: one for each run that is not there), and run nothing")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000))
+      ->excludes(table)
+      ->excludes(shard);
   study_command->add_flag("-q,--quiet", study_options.quiet, "print nothing but errors");
   study_command->footer(
-      "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, which undex plot DIR draws. "
+      "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, of which undex report DIR makes a page. "
       "The study file: docs/reference/studies.md");
 
   ReportArguments report_arguments;

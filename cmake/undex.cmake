@@ -6,6 +6,10 @@ target_compile_options(undex_rules INTERFACE -Wall -Wextra -Wpedantic $<$<CXX_CO
 target_compile_options(undex_rules INTERFACE -fno-math-errno -fno-trapping-math)
 # Collecting garbage takes GCC a tenth of its time: it may leave half a gigabyte.
 target_compile_options(undex_rules INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+# A unity build includes sources as if they were headers, whose types in anonymous namespaces GCC warns of.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(undex_rules INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(UNDEX_SANITIZE)
   target_compile_options(undex_rules INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(undex_rules INTERFACE -fsanitize=address,undefined)
@@ -111,11 +115,35 @@ function(undex_script_tests script prefix labels)
   endforeach()
 endfunction()
 
+# The instruction sets that pair loops are compiled for. "native" takes a third of the time, and serves this kind of machine only.
+set(UNDEX_CPU_LEVELS all CACHE STRING "Instruction sets of the pair loops: all, native, or a list of v2, v3, v4")
+set(levels "${UNDEX_CPU_LEVELS}")
+if(levels STREQUAL "all")
+  set(levels v4 v3 v2)
+elseif(levels STREQUAL "native")
+  try_run(ran compiled ${PROJECT_BINARY_DIR}/machine_level ${PROJECT_SOURCE_DIR}/cmake/machine_level.cpp
+    CMAKE_FLAGS -DINCLUDE_DIRECTORIES=${PROJECT_SOURCE_DIR} RUN_OUTPUT_VARIABLE levels)
+  if(NOT compiled OR NOT levels MATCHES "^v[234]$")
+    message(FATAL_ERROR "UNDEX_CPU_LEVELS=native: what this machine can do was not found out (${levels}); name v2, v3 or v4")
+  endif()
+endif()
+set(UNDEX_COMPILED_CPU_LEVELS "")
+foreach(level v4 v3 v2)  # the highest first
+  if(level IN_LIST levels)
+    list(APPEND UNDEX_COMPILED_CPU_LEVELS ${level})
+    target_compile_definitions(undex_rules INTERFACE UNDEX_HAS_LEVEL_${level})
+  endif()
+  list(REMOVE_ITEM levels ${level})
+endforeach()
+if(levels OR NOT UNDEX_COMPILED_CPU_LEVELS)
+  message(FATAL_ERROR "UNDEX_CPU_LEVELS=${UNDEX_CPU_LEVELS}: say all, native, or a list of v2, v3 and v4")
+endif()
+
 # undex_pair_loops(name SOURCES files...): files with loops over pairs, compiled once per instruction set (sph_fluid/pairs/simd.hpp);
 # the objects are in <name>_pair_loops.
 function(undex_pair_loops name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  foreach(level v2 v3 v4)
+  foreach(level IN LISTS UNDEX_COMPILED_CPU_LEVELS)
     set(target undex_${name}_loops_${level})
     add_library(${target} OBJECT ${ARG_SOURCES})
     target_link_libraries(${target} PRIVATE undex_rules)

@@ -1,5 +1,6 @@
 #include "core/closed_surface.hpp"
 
+#include "core/constants.hpp"
 #include "core/surface_net.hpp"
 
 #include <Eigen/Geometry>
@@ -7,13 +8,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 namespace undex {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// How many cells of that spacing fit into a length, a multiple of `of`.
 int count(double length, double spacing, int of) { return of * std::max(1, int(std::lround(length / (of * spacing)))); }

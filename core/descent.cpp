@@ -2,21 +2,13 @@
 
 #include <cmath>
 
+#include "core/vector_list.hpp"
+
 namespace undex {
 namespace {
 
 constexpr std::size_t remembered = 6;
 constexpr double first_step = 0.3;  // of the forces; those of kernels on a lattice bear it
-
-double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
-  return sum;
-}
-
-void add(std::vector<Vec3>& to, double factor, const std::vector<Vec3>& more) {
-  for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * more[k];
-}
 
 }  // namespace
 

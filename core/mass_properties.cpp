@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "core/triangle_surface.hpp"
 
 namespace undex {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Round {
   double volume, middle;  // along the axis

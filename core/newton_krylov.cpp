@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vector_list.hpp"
+
 namespace undex {
 namespace {
 
 using Values = KrylovSpace::Values;
-
-double product(const Values& a, const Values& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
-  return sum;
-}
-
-void add(Values& to, double factor, const Values& more) {
-  for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * more[k];
-}
 
 void scale(Values& all, double factor) {
   for (Vec3& one : all) one *= factor;

@@ -14,7 +14,7 @@ namespace undex::fem {
 namespace {
 
 // Cells below this count are not worth waking threads for.
-constexpr std::size_t worth_threads = 512;
+constexpr std::size_t cells_worth_threads = 512;
 // A cell that has strained by this much gets its highest frequency anew.
 constexpr double frequency_strain = 0.01;
 
@@ -83,7 +83,7 @@ ElementSet::ElementSet(const Grid& grid, const materials::Solid& material, doubl
 void ElementSet::find_first_steps(const Grid& grid) {
   const auto rest = materials::evaluate(material_.pressure, material_.rho0, material_.rho0, 0.0);
   const Moduli moduli{material_.rho0 * rest.bulk_sound * rest.bulk_sound, 2.0 * material_.shear_modulus};
-#pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (cells_.size() > cells_worth_threads)
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     CellVectors x;
     collect(grid.nodes, cells_[c], x);
@@ -98,7 +98,7 @@ void ElementSet::find_first_steps(const Grid& grid) {
 long ElementSet::advance(std::span<const Vec3> x, std::span<const Vec3> u, double dt, std::span<Vec3> force) {
   const long n = static_cast<long>(cells_.size()), at_once = static_cast<long>(at_once_);
   long failed = n;
-#pragma omp parallel for schedule(static) reduction(min : failed) if (cells_.size() > worth_threads)
+#pragma omp parallel for schedule(static) reduction(min : failed) if (cells_.size() > cells_worth_threads)
   for (long c = 0; c < n; c += at_once) {
     const long wrong = advance_cells(c, std::min(at_once, n - c), x, u, dt);
     if (wrong >= 0) failed = std::min(failed, wrong);
@@ -118,7 +118,7 @@ bool ElementSet::put_forces(std::size_t c, const CellVectors& force) {
 
 void ElementSet::gather(const std::vector<double>& corner_force, std::span<Vec3> force) const {
   const long nodes = static_cast<long>(nodal_mass_.size());
-#pragma omp parallel for schedule(static) if (cells_.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (cells_.size() > cells_worth_threads)
   for (long node = 0; node < nodes; ++node) {
     Vec3 sum_of_cells = Vec3::Zero();
     for (std::size_t k = corners_begin_[node]; k < corners_begin_[node + 1]; ++k)
@@ -212,7 +212,7 @@ double ElementSet::damped_share(std::size_t c, double compression_rate) const {
 
 double ElementSet::coming_step(std::span<const Vec3> x, std::span<const Vec3> v) const {
   double least = std::numeric_limits<double>::infinity();
-#pragma omp parallel for schedule(static) reduction(min : least) if (cells_.size() > worth_threads)
+#pragma omp parallel for schedule(static) reduction(min : least) if (cells_.size() > cells_worth_threads)
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     const double rate = -expansion_rate(cells_[c], x, v);
     least = std::min(least, critical_step_[c]);

@@ -9,11 +9,10 @@
 
 #include "core/hexahedral_mesh.hpp"
 #include "fem_structure/grid.hpp"
+#include "fem_structure/hexahedron_corners.hpp"
 
 namespace undex::fem {
 namespace {
-
-constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 struct Projection {
   std::array<double, 3> unit;

@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "fem_structure/hexahedron_corners.hpp"
 #include "fem_structure/pressure_step.hpp"
 
 namespace undex::fem {
 namespace {
 
-constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 constexpr int component[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
 constexpr int place[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
 

@@ -22,7 +22,7 @@
 namespace undex::fem {
 namespace {
 
-constexpr std::size_t worth_threads = 4096;  // nodes: fewer are not worth waking threads for
+constexpr std::size_t nodes_worth_threads = 4096;  // nodes: fewer are not worth waking threads for
 
 std::string listed(const Grid& grid) {
   std::string names;
@@ -369,7 +369,7 @@ struct Structure::Implementation {
 
   void find_acceleration() {
     const long n = static_cast<long>(position.size());
-#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (position.size() > nodes_worth_threads)
     for (long i = 0; i < n; ++i)
       acceleration[i] =
           (load_force[i] + impulse_force[i] - internal_force[i] + mass[i] * settings.gravity).cwiseProduct(inverse_mass[i]);
@@ -418,11 +418,11 @@ struct Structure::Implementation {
   void step(double dt) {
     const long n = static_cast<long>(position.size());
     integrator_jumps += held_back(dt) - integrator_held;
-#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (position.size() > nodes_worth_threads)
     for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
     meet_planes(dt);
     follow_ties(velocity);
-#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (position.size() > nodes_worth_threads)
     for (long i = 0; i < n; ++i) {
       increment[i] = dt * velocity[i];
       position[i] += increment[i];
@@ -437,7 +437,7 @@ struct Structure::Implementation {
     book_loads(dt);
     for (int node : wet_nodes) received_work += impulse_force[node].dot(increment[node]);
     find_acceleration();
-#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (position.size() > nodes_worth_threads)
     for (long i = 0; i < n; ++i) velocity[i] += 0.5 * dt * acceleration[i];
     integrator_held = held_back(dt);
   }
@@ -499,7 +499,7 @@ struct Structure::Implementation {
   /// Velocities [m/s] in the middle of a step of dt [s]: kicked, and met by rigid planes.
   void find_coming_velocity(double dt) {
     const long n = static_cast<long>(position.size());
-#pragma omp parallel for schedule(static) if (position.size() > worth_threads)
+#pragma omp parallel for schedule(static) if (position.size() > nodes_worth_threads)
     for (long i = 0; i < n; ++i) {
       coming_velocity[i] = velocity[i] + 0.5 * dt * acceleration[i];
       for (const RigidPlane& plane : settings.planes)

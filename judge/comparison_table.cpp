@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/text_table.hpp"
@@ -23,8 +23,6 @@ using output::padded_left;
 using output::padded_right;
 using output::print;
 using output::width;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "judge/comparisons.hpp"
 #include "run/spherical_flow.hpp"
 #include "scene/line.hpp"
@@ -18,17 +18,15 @@ namespace {
 using output::NamedNumbers;
 using output::Series;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int reference_cells = 400;  // in the charge; cases/free_field/README.md shows how converged that is
 
-constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double most_samples = 1e5;
 constexpr double nearest_fit = 4, farthest_fit = 20;  // of the pressure behind a front, in times of smearing
 
 /// When p first rises through half of its `top`; NaN where that is nothing.
 double half_rise_of(const Series& p, double top) { return top > 0 ? first_rise(p, 0.5 * top, -forever, forever) : nan; }
 
-std::vector<scene::Probe> fluid_probes(const scene::Scene& scene) {
+std::vector<scene::Probe> probes_of_free_field(const scene::Scene& scene) {
   std::vector<scene::Probe> found;
   for (const scene::Probe& probe : scene.probes)
     if (probe.kind == scene::Probe::Kind::fluid) found.push_back(probe);
@@ -36,7 +34,7 @@ std::vector<scene::Probe> fluid_probes(const scene::Scene& scene) {
 }
 
 /// A spherical charge in one medium, and probes in it.
-void check(const scene::TableReader& table, const scene::Scene& scene) {
+void check_free_field(const scene::TableReader& table, const scene::Scene& scene) {
   const auto& bodies = scene.fluid.bodies;
   const auto is_charge = [](const sph::Body& body) {
     return body.variable_h && body.shape.removed.empty() && std::holds_alternative<Sphere>(body.shape.base);
@@ -52,8 +50,8 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
 }
 
 /// Every fluid probe, from the run's first row on. The charge is the scene's own, not yet grown by a spherical start.
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
-  const std::vector<scene::Probe> places = fluid_probes(scene);
+Verdict judge_free_field(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+  const std::vector<scene::Probe> places = probes_of_free_field(scene);
   const std::vector<Blast> exact = free_field_in_one_dimension(scene, evidence.time, reference_cells);
   Verdict verdict;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -114,7 +112,7 @@ NamedNumbers blast_metrics(const Series& pressure, const Blast& reference, const
 }
 
 std::vector<Blast> free_field_in_one_dimension(const scene::Scene& scene, double end, int charge_cells) {
-  const std::vector<scene::Probe> probes = fluid_probes(scene);
+  const std::vector<scene::Probe> probes = probes_of_free_field(scene);
   double farthest = 0;
   const auto radius = [](const scene::Probe& probe, const Sphere& charge) { return (probe.point - charge.center).norm(); };
   const Sphere charge = run::spherical_charge(scene);
@@ -135,9 +133,9 @@ std::vector<Blast> free_field_in_one_dimension(const scene::Scene& scene, double
 }
 
 Comparison free_field() {
-  return {.kind = {.name = "free_field", .check = check},
+  return {.kind = {.name = "free_field", .check = check_free_field},
           .title = "pressures of a spherical charge in the open, beside its one-dimensional flow",
-          .judge = judge_run};
+          .judge = judge_free_field};
 }
 
 }  // namespace undex::judge

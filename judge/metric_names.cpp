@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace undex::judge {
 namespace {
@@ -30,7 +31,6 @@ std::string metric_at_time(const std::string& quantity, int time_us, const std::
 }
 
 double time_of_metric(const std::string& metric, const std::string& quantity) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (!metric.starts_with(quantity + "_")) return nan;
   const char* begin = metric.c_str() + quantity.size() + 1;
   char* end = nullptr;

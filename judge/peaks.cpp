@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
+
 namespace undex::judge {
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double us = 1e-6;
-
-}  // namespace
-
 Peak first_peak(const output::Series& p, double until) {
   const output::Extremum top = maximum(p, -forever, until);
   if (!(top.y >= least_peak)) return {};

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 
+#include "core/constants.hpp"
 #include "exact/classical.hpp"
 #include "exact/detonation.hpp"
 #include "exact/riemann.hpp"
@@ -19,7 +19,6 @@ namespace {
 
 using output::NamedNumbers;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Pressures beside a contact, and apart from contacts and shocks, are looked at within and beyond so many spacings: three
 /// kernels of a liquid, one of a gas that has expanded as far as h follows it.
 constexpr double near = 10;
@@ -281,7 +280,7 @@ void pose(Case& c) {
 // ---------------------------------------------------------------------------------------------------- the comparison
 
 /// Whether the bodies pose such a problem.
-void check(const scene::TableReader& table, const scene::Scene& scene) {
+void check_profile(const scene::TableReader& table, const scene::Scene& scene) {
   const scene::Comparison& comparison = scene.comparison;
   if (!comparison.solution) return;
   if (comparison.core && *comparison.solution != scene::Solution::riemann)
@@ -306,11 +305,11 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
   }
 }
 
-std::vector<std::string> last_fields(const scene::Scene&) {
+std::vector<std::string> last_fields_of_profile(const scene::Scene&) {
   return {"fluid.position", "fluid.velocity", "fluid.density", "fluid.pressure", "fluid.mass", "fluid.material"};
 }
 
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+Verdict judge_profile(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   if (!(evidence.time > 0)) return {.metrics = {}, .missing = {{"all", "the run has taken no step"}}};
   const ProfileProblem problem = profile_problem(scene.fluid, *scene.comparison.solution);
   Case c{.scene = scene,
@@ -331,11 +330,11 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
 }  // namespace
 
 Comparison profile() {
-  return {.kind = {.name = "profile", .keys = {"solution", "window", "core"}, .check = check},
+  return {.kind = {.name = "profile", .keys = {"solution", "window", "core"}, .check = check_profile},
           .title = "the particles at the end beside an exact solution in space",
           .beside_table = false,
-          .last_fields = last_fields,
-          .judge = judge_run};
+          .last_fields = last_fields_of_profile,
+          .judge = judge_profile};
 }
 
 }  // namespace undex::judge

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace undex::judge {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double FlowState::*quantities[3] = {&FlowState::density, &FlowState::velocity, &FlowState::pressure};
 
 }  // namespace

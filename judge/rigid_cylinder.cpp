@@ -1,8 +1,8 @@
 #include "judge/rigid_cylinder.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "judge/comparisons.hpp"
 #include "judge/peaks.hpp"
 
@@ -11,10 +11,6 @@ namespace {
 
 using output::NamedNumbers;
 using output::Series;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double us = 1e-6;
 
 double mean_difference(const Series& p, const Series& reference, double a, double b) {
   if (!covers(p, a, b) || !covers(reference, a, b)) return nan;
@@ -27,7 +23,7 @@ double mean_difference(const Series& p, const Series& reference, double a, doubl
   return sum / samples;
 }
 
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference& reference) {
+Verdict judge_rigid_cylinder(const scene::Scene& scene, const output::Evidence& evidence, const Reference& reference) {
   return {.metrics = rigid_cylinder_metrics(evidence.series(scene.comparison.probe, "pressure"), reference.first_history())};
 }
 
@@ -62,7 +58,7 @@ Comparison rigid_cylinder() {
   return {.kind = {.name = "rigid_cylinder", .needs_probe = true},
           .title = "pressure at the wall of a rigid cylinder",
           .history = "midline_wall_pressure.csv",
-          .judge = judge_run};
+          .judge = judge_rigid_cylinder};
 }
 
 }  // namespace undex::judge

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "judge/comparisons.hpp"
 #include "scene/table_reader.hpp"
 
@@ -13,8 +13,6 @@ namespace {
 
 using output::Series;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
 constexpr double decays = 6.7;  // to which impulse and energy are taken
 
 bool is_explosive(const sph::Body& body) { return std::holds_alternative<materials::Jwl>(body.material.law); }
@@ -39,7 +37,7 @@ double charge_mass(const scene::Scene& scene) {
   return start_density(charge) * 4.0 / 3.0 * std::numbers::pi * std::pow(std::get<Sphere>(charge.shape.base).radius, 3);
 }
 
-std::vector<scene::Probe> fluid_probes(const scene::Scene& scene) {
+std::vector<scene::Probe> probes_of_similitude(const scene::Scene& scene) {
   std::vector<scene::Probe> found;
   for (const scene::Probe& probe : scene.probes)
     if (probe.kind == scene::Probe::Kind::fluid) found.push_back(probe);
@@ -74,7 +72,7 @@ SimilitudeLaws laws_of(const scene::Similitude& asked) {
   return laws;
 }
 
-void check(const scene::TableReader& table, const scene::Scene& scene) {
+void check_similitude(const scene::TableReader& table, const scene::Scene& scene) {
   const scene::Similitude& asked = scene.comparison.similitude;
   std::vector<std::string> names;
   for (const SimilitudeLaws& each : known_similitude()) names.push_back(each.name);
@@ -91,7 +89,7 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
     return table.complain("kind", "comparison.kind = \"similitude\" needs one charge, a body of law \"jwl\", and its water");
   if (!asked.charge_mass && !is_sphere(*charge))
     table.complain("kind", "comparison.charge_mass: the charge is no sphere; give its mass in kg");
-  const std::vector<scene::Probe> probes = fluid_probes(scene);
+  const std::vector<scene::Probe> probes = probes_of_similitude(scene);
   if (probes.empty())
     table.complain("kind", "comparison.kind = \"similitude\" reads the pressures of fluid probes; add [[probes]]");
   for (const scene::Probe& probe : probes)
@@ -100,7 +98,7 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
                      "comparison.kind = \"similitude\": probes." + probe.name + " lies in the charge; move it into the water");
 }
 
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+Verdict judge_similitude(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   const SimilitudeLaws laws = laws_of(scene.comparison.similitude);
   const double mass = charge_mass(scene), scale = std::cbrt(mass);
   const Vec3 middle = middle_of(*charge_of(scene));
@@ -116,7 +114,7 @@ Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, c
                          {"energy_flux", "J/m^2"},
                          {"energy_flux_similitude", "J/m^2"}});
   std::vector<std::vector<double>> rows;
-  for (const scene::Probe& probe : fluid_probes(scene)) {
+  for (const scene::Probe& probe : probes_of_similitude(scene)) {
     const Series pressure = evidence.series(probe.name, "pressure");
     const sph::Body* water = body_at(scene, probe.point);
     if (pressure.empty() || !water) continue;
@@ -193,12 +191,12 @@ ShockWave shock_wave(const Series& pressure, double impedance) {
 Comparison similitude() {
   return {.kind = {.name = "similitude",
                    .keys = {"explosive", "charge_mass", "peak", "decay", "impulse", "energy_flux"},
-                   .check = check},
+                   .check = check_similitude},
           .title = "peak, decay, impulse and energy of a charge's shock wave, beside the laws of similitude",
           .without_value =
               "the wave does not come by the probe within the run, or the run ends before 6.7 decays after its peak; take "
               "a longer end_time (or an earlier start.time, where the wave had passed)",
-          .judge = judge_run};
+          .judge = judge_similitude};
 }
 
 }  // namespace undex::judge

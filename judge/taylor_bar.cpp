@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "judge/comparisons.hpp"
 #include "scene/table_reader.hpp"
 
 namespace undex::judge {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
-
-void check(const scene::TableReader& table, const scene::Scene& scene) {
+void check_taylor_bar(const scene::TableReader& table, const scene::Scene& scene) {
   const auto& solids = scene.solids.bodies;
   const fem::Settings* structure = scene.only_structure();
   const bool rod = structure ? std::holds_alternative<fem::RodMesh>(structure->mesh)
@@ -24,10 +21,10 @@ void check(const scene::TableReader& table, const scene::Scene& scene) {
                    "of [[solids]], a cylinder; there is none");
 }
 
-std::vector<std::string> last_fields(const scene::Scene&) { return {"body.position"}; }
+std::vector<std::string> last_fields_of_taylor_bar(const scene::Scene&) { return {"body.position"}; }
 
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
-  const std::vector<Vec3> points = evidence.field(last_fields(scene)[0]).vectors();
+Verdict judge_taylor_bar(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+  const std::vector<Vec3> points = evidence.field(last_fields_of_taylor_bar(scene)[0]).vectors();
   if (const fem::Settings* structure = scene.only_structure()) {
     const auto& rod = std::get<fem::RodMesh>(structure->mesh);
     return {.metrics = taylor_bar_metrics(points, rod.axis, rod.center, rod.high - rod.low)};
@@ -74,10 +71,10 @@ output::NamedNumbers taylor_bar_metrics(const std::vector<Vec3>& points, int axi
 }
 
 Comparison taylor_bar() {
-  return {.kind = {.name = "taylor_bar", .check = check},
+  return {.kind = {.name = "taylor_bar", .check = check_taylor_bar},
           .title = "shape of a bar that has hit an anvil",
-          .last_fields = last_fields,
-          .judge = judge_run};
+          .last_fields = last_fields_of_taylor_bar,
+          .judge = judge_taylor_bar};
 }
 
 }  // namespace undex::judge

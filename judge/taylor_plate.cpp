@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "exact/classical.hpp"
 #include "exact/isentrope.hpp"
@@ -20,9 +20,6 @@ namespace {
 
 using output::NamedNumbers;
 using output::Series;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
 
 /// The plate's extent along the wave's way, and the faces at its ends.
 struct Plate {
@@ -143,7 +140,7 @@ void expect_affordable(const scene::TableReader& table, const scene::Scene& scen
 }
 
 /// A plate that a plane wave meets head-on.
-void check(const scene::TableReader& table, const scene::Scene& scene) {
+void check_taylor_plate(const scene::TableReader& table, const scene::Scene& scene) {
   const scene::Start::Wave& wave = scene.start.wave;
   const std::optional<Plate> plate = plate_of(scene);
   const std::string face = !plate ? "" : plate->front(wave.upward);
@@ -209,7 +206,7 @@ Fall fall_to_zero(const Series& p, double peak) {
 /// and of G. I. Taylor's linear theory ("_acoustic"); and
 ///   cavitation_error, impulse_error, end_impulse_error   of the run, as a share of the one-dimensional solution's
 ///   velocity_l1             mean difference of the plate's velocity from that solution, over its largest
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+Verdict judge_taylor_plate(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   const Line line = line_of(scene);
   const double end = evidence.time;
   const scene::Start::Wave& given = scene.start.wave;
@@ -338,9 +335,9 @@ PlateReference plate_in_one_dimension(const scene::Scene& scene, double end, int
 }
 
 Comparison taylor_plate() {
-  return {.kind = {.name = "taylor_plate", .needs_probe = true, .check = check},
+  return {.kind = {.name = "taylor_plate", .needs_probe = true, .check = check_taylor_plate},
           .title = "a plate that a plane wave throws, beside a one-dimensional solution and Taylor's theory",
-          .judge = judge_run};
+          .judge = judge_taylor_plate};
 }
 
 }  // namespace undex::judge

@@ -1,8 +1,8 @@
 #include "judge/tube.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "judge/comparisons.hpp"
 #include "judge/metric_names.hpp"
 #include "judge/peaks.hpp"
@@ -13,10 +13,6 @@ namespace {
 
 using output::NamedNumbers;
 using output::Series;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double us = 1e-6;
 
 void add_table(NamedNumbers& out, const Series& series, const std::string& name, const std::string& unit,
                std::initializer_list<int> times_us) {
@@ -112,7 +108,7 @@ TubeHistories histories_of(const scene::Scene& scene, const output::Evidence& ev
   return histories;
 }
 
-Verdict judge_run(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
+Verdict judge_tube(const scene::Scene& scene, const output::Evidence& evidence, const Reference&) {
   return {.metrics = tube_metrics(histories_of(scene, evidence))};
 }
 
@@ -132,7 +128,7 @@ NamedNumbers tube_metrics(const TubeHistories& histories) {
 Comparison tube() {
   return {.kind = {.name = "tube", .needs_probe = true},
           .title = "motion of a tube's wall, and the pressure at it",
-          .judge = judge_run};
+          .judge = judge_tube};
 }
 
 }  // namespace undex::judge

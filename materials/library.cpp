@@ -29,11 +29,11 @@ std::vector<std::string> names(const std::vector<Set>& of) {
   return all;
 }
 
-using Table = std::vector<std::pair<std::string, double>>;
+using NamedValues = std::vector<std::pair<std::string, double>>;
 
 /// The numbers of a record that count, each under the name that it has in a scene file.
 template <class Record>
-void append(Table& table, const std::string& prefix, const Record& record) {
+void append(NamedValues& table, const std::string& prefix, const Record& record) {
   for_each_field(record, [&](const auto& value, const Key& key) {
     if constexpr (std::is_same_v<decltype(value), const double&>)
       if (key.used) table.emplace_back(prefix + key.name + " [" + (*key.unit ? key.unit : "-") + "]", value);
@@ -56,13 +56,13 @@ bool is_verified(const Pedigree& pedigree, const ChapmanJouguet& own) {
 }
 
 std::vector<std::pair<std::string, double>> parameters(const Fluid& fluid) {
-  Table table;
+  NamedValues table;
   std::visit([&](const auto& law) { append(table, "", law.parameters()); }, fluid.law);
   return table;
 }
 
 std::vector<std::pair<std::string, double>> parameters(const Solid& solid) {
-  Table table;
+  NamedValues table;
   append(table, "", solid);
   std::visit([&](const auto& law) { append(table, "pressure.", law); }, solid.pressure);
   std::visit([&](const auto& law) { append(table, "flow.", law); }, solid.flow);

@@ -8,7 +8,7 @@ namespace undex::materials {
 
 namespace {
 
-void require(bool holds, const char* what, double value) {
+void require_tait(bool holds, const char* what, double value) {
   if (holds) return;
   std::ostringstream text;
   text << "TaitWater: " << what << ", got " << value;
@@ -27,11 +27,11 @@ double schmidt_pressure_scale(const SchmidtMixture& mixture, double rho_liquid) 
 TaitWater::TaitWater() : TaitWater(Parameters{}) {}
 
 TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
-  require(p_.rho0 > 0, "rho0 [kg/m^3] must be positive", p_.rho0);
-  require(p_.B > 0, "B [Pa] must be positive", p_.B);
-  require(p_.N > 1, "N must exceed 1", p_.N);
+  require_tait(p_.rho0 > 0, "rho0 [kg/m^3] must be positive", p_.rho0);
+  require_tait(p_.B > 0, "B [Pa] must be positive", p_.B);
+  require_tait(p_.N > 1, "N must exceed 1", p_.N);
   if (p_.cavitation == Cavitation::none) return;
-  require(p_.p_floor > p_.A - p_.B, "p_floor [Pa] must exceed A - B", p_.p_floor);
+  require_tait(p_.p_floor > p_.A - p_.B, "p_floor [Pa] must exceed A - B", p_.p_floor);
 
   if (p_.cavitation == Cavitation::cutoff) {
     rho_limit_ = rho_floor_ = liquid_density(p_.p_floor);
@@ -42,13 +42,13 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
   }
 
   const SchmidtMixture& mixture = p_.mixture;
-  require(mixture.density_ratio > 0 && mixture.density_ratio < 1, "density_ratio must lie between 0 and 1",
-          mixture.density_ratio);
-  require(mixture.p_sat > p_.p_floor, "p_sat [Pa] must exceed p_floor", mixture.p_sat);
+  require_tait(mixture.density_ratio > 0 && mixture.density_ratio < 1, "density_ratio must lie between 0 and 1",
+               mixture.density_ratio);
+  require_tait(mixture.p_sat > p_.p_floor, "p_sat [Pa] must exceed p_floor", mixture.p_sat);
   if (p_.cavitation == Cavitation::isentropic) {
-    require(p_.p_floor > 0, "p_floor [Pa] must be positive with the isentropic mixture", p_.p_floor);
-    require(p_.vapour_gamma > 1, "vapour_gamma must exceed 1", p_.vapour_gamma);
-    require(p_.initial_void > 0 && p_.initial_void < 1, "initial_void must lie between 0 and 1", p_.initial_void);
+    require_tait(p_.p_floor > 0, "p_floor [Pa] must be positive with the isentropic mixture", p_.p_floor);
+    require_tait(p_.vapour_gamma > 1, "vapour_gamma must exceed 1", p_.vapour_gamma);
+    require_tait(p_.initial_void > 0 && p_.initial_void < 1, "initial_void must lie between 0 and 1", p_.initial_void);
     rho_limit_ = liquid_density(mixture.p_sat);
     liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
     rho_vapour_ = mixture.density_ratio * rho_limit_;
@@ -67,14 +67,14 @@ TaitWater::TaitWater(const Parameters& parameters) : p_(parameters) {
     energy_floor_ = energy_wet_ + isentropic_.energy(p_lowest_);
     return;
   }
-  require(mixture.vapour_sound > 0, "vapour_sound [m/s] must be positive", mixture.vapour_sound);
-  require(mixture.liquid_sound > 0, "liquid_sound [m/s] must be positive", mixture.liquid_sound);
+  require_tait(mixture.vapour_sound > 0, "vapour_sound [m/s] must be positive", mixture.vapour_sound);
+  require_tait(mixture.liquid_sound > 0, "liquid_sound [m/s] must be positive", mixture.liquid_sound);
   rho_limit_ = liquid_density(mixture.p_sat);
   liquid_sound_ = guarded_sound_speed(p_.N * (mixture.p_sat - p_.A + p_.B) / rho_limit_);
   rho_vapour_ = mixture.density_ratio * rho_limit_;
   K_vapour_ = rho_vapour_ * mixture.vapour_sound * mixture.vapour_sound;
   K_liquid_ = rho_limit_ * mixture.liquid_sound * mixture.liquid_sound;
-  require(K_liquid_ > K_vapour_, "the liquid must be stiffer than the vapour, rho a^2 [Pa] of the liquid", K_liquid_);
+  require_tait(K_liquid_ > K_vapour_, "the liquid must be stiffer than the vapour, rho a^2 [Pa] of the liquid", K_liquid_);
   p_gl_ = schmidt_pressure_scale(mixture, rho_limit_);
   const double p_vapour = mixture_pressure(rho_vapour_, 1.0);
   p_lowest_ = std::max(p_.p_floor, p_vapour);

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr long format = 1;  // raised when a reader must know of a change
+constexpr long checkpoint_format = 1;  // raised when a reader must know of a change
 
 /// Arrays into a HDF5 file.
 class Writer : public StateVisitor {
@@ -79,7 +79,7 @@ namespace {
 std::pair<fs::path, std::size_t> written_aside(const fs::path& path, const std::function<void(Writer&)>& visit) {
   const hdf5::File file = hdf5::File::create_in_memory(path);
   Writer writer(file);
-  long version = format;
+  long version = checkpoint_format;
   writer("format", version);
   visit(writer);
   const std::string_view image = file.image();
@@ -97,7 +97,7 @@ void require_whole(const fs::path& path) {
 void require_format(Reader& reader, const fs::path& path) {
   long version = 0;
   reader("format", version);
-  if (version != format) throw FileError(path.string() + ": another version of the program wrote it");
+  if (version != checkpoint_format) throw FileError(path.string() + ": another version of the program wrote it");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double format = 2;  // raised when a reader must know of a change
+constexpr double evidence_format = 2;  // raised when a reader must know of a change
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw FileError("cannot read " + path.string() + ": " + reason +
@@ -43,7 +43,7 @@ Samples read_samples(const hdf5::File& file, const hdf5::Handle& group, const fs
 }
 
 void write_all(const hdf5::File& file, const Evidence& evidence) {
-  file.attribute(file, "format", format);
+  file.attribute(file, "format", evidence_format);
   file.attribute(file, "time", evidence.time);
   const hdf5::Handle histories = file.ordered_group(file, "history"), energy = file.ordered_group(file, "energy"),
                      fields = file.ordered_group(file, "fields");
@@ -93,7 +93,7 @@ Evidence read_evidence(const fs::path& path) {
     throw FileError(path.string() + ": no such file: an older program computed the run; run the scene again");
   if (!is_sealed(path)) refuse(path, "the file is damaged");
   const hdf5::File file = hdf5::File::open_to_read(path);
-  if (file.number(file, "format") != format) refuse(path, "another version of the program wrote it");
+  if (file.number(file, "format") != evidence_format) refuse(path, "another version of the program wrote it");
   Evidence evidence;
   evidence.time = file.number(file, "time");
   if (!std::isfinite(evidence.time)) refuse(path, "its time is no number");

@@ -45,13 +45,13 @@ bool is_named(int file, const fs::path& path) {
 }
 
 /// Makes the folder, opens the file and locks it. A file system without locks does without.
-int locked_file(const fs::path& folder, const fs::path& path) {
+int locked_file(const fs::path& folder, const fs::path& path, Holding holding) {
   for (;;) {
     make_folder(folder);
     const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (file < 0 && errno == ENOENT) continue;  // somebody who had made the folder has just left it
     if (file < 0) throw_file_error("write", path, errno);
-    if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (flock(file, (holding == Holding::shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) {
         std::fprintf(stderr, "warning: %s is on a file system without locks: see to it that no other undex writes there\n",
                      folder.c_str());
@@ -68,16 +68,17 @@ int locked_file(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder, const std::string& who)
+FolderLock::FolderLock(const fs::path& folder, const std::string& who, Holding holding)
     : path_(folder / folder_lock_name), made_(missing_folders(folder)) {
-  file_ = locked_file(folder, path_);
+  file_ = locked_file(folder, path_, holding);
   const std::string holder = holder_text(who);
   // On a full disk the file stays empty: it binds all the same.
   if (ftruncate(file_, 0) != 0 || pwrite(file_, holder.data(), holder.size(), 0) < 0) return;
 }
 
 FolderLock::~FolderLock() {
-  if (is_named(file_, path_)) unlink(path_.c_str());
+  const bool last = flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  if (last && is_named(file_, path_)) unlink(path_.c_str());
   close(file_);
   for (const fs::path& folder : made_) rmdir(folder.c_str());
 }

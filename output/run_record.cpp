@@ -1,20 +1,19 @@
 #include "output/run_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 
 namespace undex::output {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // A number that is not finite becomes null: JSON has no NaN, and no event must look like an event at zero.
 nlohmann::ordered_json object(const NamedNumbers& numbers) {
@@ -163,6 +162,16 @@ std::vector<LargestRecord> largest(const nlohmann::ordered_json& json) {
   return all;
 }
 
+constexpr const char* trust_words[] = {"good", "notice", "bad"};
+
+/// A level that this program does not know counts as bad.
+TrustRecord trust(const nlohmann::ordered_json& json) {
+  const std::string level = text(json, "level");
+  const auto word = std::find(std::begin(trust_words), std::end(trust_words), level);
+  return {text(json, "about"), word == std::end(trust_words) ? Trust::bad : Trust(word - std::begin(trust_words)),
+          text(json, "text")};
+}
+
 BubbleRecord bubble(const nlohmann::ordered_json& json) {
   BubbleRecord bubble;
   bubble.body = text(json, "body");
@@ -224,6 +233,8 @@ std::string to_json(const RunRecord& record) {
   for (const BubbleRecord& each : record.bubbles) json["bubbles"].push_back(object(each));
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
+  for (const TrustRecord& each : record.trust)
+    json["trust"].push_back({{"about", each.about}, {"level", trust_words[int(each.level)]}, {"text", each.text}});
   json["passes"] = object(record.passes);
   put_metrics(json, record.metrics, record.missing);
   return json_text(json);
@@ -283,6 +294,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
       if (each.is_object()) record.bubbles.push_back(bubble(each));
   for (const auto& [name, count] : numbers(json, "clamps"))
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
+  if (const auto found = json.find("trust"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_object()) record.trust.push_back(trust(each));
   record.passes = numbers(json, "passes");
   record.metrics = numbers(json, "metrics");
   if (const auto found = json.find("missing"); found != json.end() && found->is_object())

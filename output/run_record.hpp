@@ -59,6 +59,14 @@ struct BubbleRecord {
   std::string missing;                                               ///< why; left out when empty
 };
 
+/// How a run stands in one matter.
+enum class Trust { good, notice, bad };
+struct TrustRecord {
+  std::string about;  ///< a word or two: "energy", "charge"
+  Trust level = Trust::good;
+  std::string text;  ///< a sentence
+};
+
 struct RunRecord {
   std::string scene;    ///< its name
   std::string status;   ///< "done", or why it ended: "stopped", "interrupted", ...
@@ -86,6 +94,7 @@ struct RunRecord {
   std::vector<LargestRecord> largest;       ///< likewise
   std::vector<BubbleRecord> bubbles;        ///< likewise
   std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
+  std::vector<TrustRecord> trust;                            ///< whether its numbers can be trusted; left out when empty
   NamedNumbers passes;                                       ///< seconds per named pass
   NamedNumbers metrics;                                      ///< results of the scene's comparison
   Reasons missing;                                           ///< why, of each of them that is NaN; left out when empty

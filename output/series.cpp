@@ -6,17 +6,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 
 namespace undex::output {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double between(const Series& s, std::size_t left, double t) {
   const double width = s.t[left + 1] - s.t[left];

@@ -37,6 +37,31 @@ std::string difference_text(double difference, const std::string& unit) {
   return print(std::abs(difference) >= 99.95 ? "%+.0f%%" : "%+.1f%%", difference);
 }
 
+std::string grouped(std::int64_t count) {
+  const std::string digits = std::to_string(count);
+  std::string text;
+  for (std::size_t k = 0; k < digits.size(); ++k) {
+    const std::size_t left = digits.size() - k;
+    if (k > 0 && left % 3 == 0 && digits[k - 1] != '-') text += ',';
+    text += digits[k];
+  }
+  return text;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  struct Prefix {
+    double factor;
+    const char* letter;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
+  if (value == 0 || !std::isfinite(value)) return print("%g ", value) + unit;
+  if (unit == "m" && std::abs(value) >= 1e-5 && std::abs(value) < 1) return print("%.4g mm", value * 1e3);  // as engineers count
+  for (const Prefix& prefix : prefixes)
+    if (std::abs(value) >= 0.99995 * prefix.factor && !(prefix.factor > 1 && (unit == "s" || unit == "m")))
+      return print("%.4g ", value / prefix.factor) + prefix.letter + unit;
+  return print("%.3g ", value) + unit;
+}
+
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ std::string padded_right(const std::string& text, std::size_t columns);
 
 /// Lines of cells as text, columns aligned: the first `left` of them to the left, the others to the right, three blanks apart.
 std::string aligned(const std::vector<std::vector<std::string>>& lines, std::size_t left);
+
+/// A count with commas between thousands: "27,288".
+std::string grouped(std::int64_t count);
+
+/// A value [SI] with the prefix that suits it: "0.5 mm", "28.2 MPa", "150 us". Four digits; zero is "0 m".
+std::string with_unit(double value, const std::string& unit);
 
 /// A time as people say it: "12 s", "3 min 05 s", "2.4 h".
 std::string duration(double seconds);

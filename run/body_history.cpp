@@ -8,8 +8,8 @@
 namespace undex::run {
 namespace {
 
-constexpr long steps_a_row = 10, on_a_line = 50;  // there a row costs as much as two steps
-constexpr double turned = 0.01;                   // share of its radius by which a bubble has turned
+constexpr long steps_a_row = 10, steps_a_row_on_a_line = 50;  // there a row costs as much as two steps
+constexpr double turned = 0.01;                               // share of its radius by which a bubble has turned
 
 bool is_liquid(const sph::Body& body) { return !materials::is_gas(body.material.law); }
 
@@ -65,7 +65,8 @@ void BodyHistory::visit_state(StateVisitor& state) {
 void BodyHistory::sample(const Simulation& simulation) {
   if (!wanted_) return;
   const bool at_end = simulation.time() >= scene_.end_time * (1 - 1e-12);
-  if (calls_++ % (simulation.line() ? on_a_line : steps_a_row) != 0 && scene_.output.history_interval == 0 && !at_end) return;
+  if (calls_++ % (simulation.line() ? steps_a_row_on_a_line : steps_a_row) != 0 && scene_.output.history_interval == 0 && !at_end)
+    return;
   std::vector<double> row{simulation.time()};
   const std::vector<sph::BodyTotals> all = simulation.body_totals();
   for (std::size_t b = 0; b < all.size(); ++b) {

@@ -8,9 +8,12 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "output/terminal.hpp"
+#include "output/text_table.hpp"
 #include "run/picture.hpp"
 #include "run/simulation.hpp"
 #include "run/room.hpp"
+#include "run/stages.hpp"
 #include "run/starts.hpp"
 #include "scene/revolution.hpp"
 #include "core/shapes.hpp"
@@ -117,7 +120,7 @@ std::string describe(const scene::Scene& given, std::string* drawing) {
 
   text += expect_room(scene) + "\n";
   const auto before = Clock::now();
-  if (const std::string report = begin(scene); !report.empty()) text += report + "\n";
+  if (const std::string report = begin(scene); !report.empty()) text += start_words(scene.start.kind) + ": " + report + "\n";
   Simulation simulation(scene);
   const double for_start = std::chrono::duration<double>(Clock::now() - before).count();
   if (drawing) *drawing = picture(scene, simulation);
@@ -164,27 +167,16 @@ std::string describe(const scene::Scene& given, std::string* drawing) {
 }
 
 std::string cost_text(const output::RunRecord& record) {
-  std::string text =
-      format("%s: %s at %.6g us after %lld steps, %.1f s of wall time, %.1f s of CPU time, %.0f MB\n", record.scene.c_str(),
-             record.status.c_str(), record.time_s * 1e6, static_cast<long long>(record.steps), record.wall_time_s,
-             record.cpu_time_s, record.peak_memory_bytes / 1e6);
+  std::string text = "\n";
+  text += output::inked(record.scene + ": " + record.status, output::Ink::bold);
+  text += format(" at %s after %s steps, in %s (%s of CPU time, %.0f MB of memory)\n",
+                 output::with_unit(record.time_s, "s").c_str(), output::grouped(record.steps).c_str(),
+                 short_time(record.wall_time_s).c_str(), short_time(record.cpu_time_s).c_str(), record.peak_memory_bytes / 1e6);
   if (record.particles > 0)
-    text += format("%lld particles, %.4g particle updates, %.3f million per second and core, %.0f bytes per particle\n",
-                   static_cast<long long>(record.particles), double(record.particle_updates),
-                   record.particle_updates / std::max(record.cpu_time_s, 1e-9) * 1e-6,
-                   double(record.peak_memory_bytes) / double(record.particles));
-  text += format("energy error %.2e, mass error %.1e", record.energy_error, record.mass_error);
-  if (record.momentum_error == record.momentum_error) text += format(", momentum error %.1e", record.momentum_error);
-  if (record.angular_momentum_error) text += format(", angular momentum error %.1e", *record.angular_momentum_error);
-  if (record.interface_energy_error)
-    text += format(", interface energy error %.2e, impulse error %.1e", *record.interface_energy_error,
-                   record.interface_impulse_error.value_or(0.0));
+    text += format("%s particles, %.3g million particle updates, %.3g million a second and core\n",
+                   output::grouped(record.particles).c_str(), record.particle_updates * 1e-6,
+                   record.particle_updates / std::max(record.cpu_time_s, 1e-9) * 1e-6);
   text += "\n";
-  if (std::abs(record.energy_error) > 0.01)
-    text += format(
-        "note: the energy balance is off by %.1f %%; compare with a smaller step (scheme.courant, structure.courant, "
-        "solid_scheme.courant)\n",
-        100.0 * record.energy_error);
   return text;
 }
 

@@ -51,7 +51,7 @@ Donor::Donor(const scene::Scene& receiver, const StartOptions& options) : receiv
     scene_ = scene::read(file, {}, {{"comparison", "{kind = \"none\"}"}});  // nothing of it is judged
     scene_.fluid.numerics.threads = receiver.fluid.numerics.threads;
     scene::Scene begun = scene_;
-    begin(begun, {.quiet = options.quiet, .numerics = numerics_, .output = {}, .receivers = waiting});
+    begin(begun, {.stages = options.stages, .numerics = numerics_, .output = {}, .receivers = waiting});
     simulation_ = std::make_shared<Simulation>(begun);
   } catch (const SceneError& error) {
     refuse("the donor cannot be begun: " + std::string(error.what()));

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "run/start_news.hpp"
+#include "run/stages.hpp"
 #include "run/starts.hpp"
 #include "run/simulation.hpp"
 #include "scene/scene.hpp"

@@ -45,8 +45,7 @@ std::string begin_with_plane_wave(scene::Scene& scene) {
 
   const exact::PlaneWaveState front = wave.front();
   char text[300];
-  std::snprintf(text, sizeof text,
-                "plane wave: %.4g MPa, %.4g kg/m^3 and %.4g m/s at its front, %.4g mm long in water of %.4g m/s",
+  std::snprintf(text, sizeof text, "%.4g MPa, %.4g kg/m^3 and %.4g m/s at its front, %.4g mm long in water of %.4g m/s",
                 front.pressure * 1e-6, front.density, front.velocity, wave.length() * 1e3, wave.rest_sound());
   return text;
 }

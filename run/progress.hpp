@@ -1,9 +1,10 @@
-// What a run says while it runs: a line now and then, and a bar where somebody is watching a terminal.
+// What a run says while it runs: a line now and then, and one that replaces itself where somebody is watching a terminal.
 #pragma once
 
 #include <chrono>
 #include <string>
 
+#include "output/terminal.hpp"
 #include "run/simulation.hpp"
 
 namespace undex::run {
@@ -20,16 +21,18 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   void line(const Simulation& simulation);
-  void bar(double share, double seconds_left);
-  void clear_bar();
+  /// Bar, time, step and what set it, energy error, speed, time left.
+  std::string bar(const Simulation& simulation);
+  double share(const Simulation& simulation) const;
+  /// "12 s"; "?" before the first step.
+  std::string left(const Simulation& simulation) const;
 
   double start_time_, end_time_;
   int verbosity_;
-  bool terminal_;
-  bool bar_shown_ = false;
   bool header_shown_ = false;
   Clock::time_point start_, last_line_, last_bar_;
-  long last_steps_ = 0;
+  long first_steps_ = -1, last_steps_ = 0;
+  output::LiveLine live_;
 };
 
 }  // namespace undex::run

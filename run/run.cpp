@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <new>
+#include <sstream>
 
 #include "core/errors.hpp"
 #include "core/last_words.hpp"
@@ -20,8 +21,9 @@
 #include "run/record.hpp"
 #include "run/room.hpp"
 #include "run/simulation.hpp"
-#include "run/start_news.hpp"
+#include "run/stages.hpp"
 #include "run/starts.hpp"
+#include "run/trust.hpp"
 #include "run/validity.hpp"
 
 namespace undex::run {
@@ -141,11 +143,11 @@ output::RunRecord record_without_state(const scene::Scene& scene, const Course& 
   return record;
 }
 
-std::string settling_text(std::size_t moved, double unevenness) {
-  char words[120];
-  std::snprintf(words, sizeof words, "start: %zu particles are moved until they rest; pressure uneven by %.2g %%", moved,
-                100 * unevenness);
-  return words;
+/// Lays the scene's start, and says what was done.
+void begin_in_stages(scene::Scene& scene, Stages& stages, const RunOptions& options) {
+  if (scene.start.kind != scene::Start::Kind::plain) stages.begin(start_words(scene.start.kind));
+  std::istringstream lines(begin(scene, {.stages = &stages, .numerics = options.numerics, .output = options.output}));
+  for (std::string line; std::getline(lines, line);) stages.end(line);
 }
 
 /// Notes the first reason why something of the folder is not as it should be.
@@ -168,15 +170,10 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   const std::string resolved = scene::to_toml(scene);
   const bool goes_on = options.checkpoint != nullptr;
   expect_room(scene);
-  const bool quiet = goes_on || options.verbosity < 0;
+  Stages stages(options.verbosity < 0);
   const bool from_run = scene.start.kind == scene::Start::Kind::run;
-  if (!goes_on || !from_run || !take_start(options.output, scene)) {
-    const std::string report = begin(scene, {.quiet = quiet, .numerics = options.numerics, .output = options.output});
-    if (!report.empty() && !quiet) std::printf("%s\n", report.c_str());
-  }
-  StartNews news(options.verbosity < 0);
-  Simulation simulation(scene,
-                        [&](std::size_t moved, double unevenness) { news([&] { return settling_text(moved, unevenness); }); });
+  if (!goes_on || !from_run || !take_start(options.output, scene)) begin_in_stages(scene, stages, options);
+  Simulation simulation(scene, &stages);
   for (sph::Body& body : scene.fluid.bodies) body.start.reset();  // it may hold much
   const std::vector<std::string> warnings = warnings_of(scene, options.output);
   if (options.verbosity >= 0)
@@ -264,6 +261,7 @@ Result compute(const scene::Scene& given, const RunOptions& options) {
   }
   const auto& not_kept = checkpoints.warnings();
   result.record.warnings.insert(result.record.warnings.end(), not_kept.begin(), not_kept.end());
+  result.record.trust = trust_of(given, result.record);
   result.signal = end.signal;
   result.failure = end.failure;
   if (!end.failure || course.step_done)

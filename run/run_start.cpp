@@ -183,10 +183,10 @@ double burned_at(const scene::Scene& donor) {
 
 class RunStart {
  public:
-  RunStart(scene::Scene& scene, const StartOptions& options)
+  RunStart(scene::Scene& scene, const StartOptions& options, Stages& stages)
       : scene_(scene),
         options_(options),
-        news_(options.quiet),
+        stages_(stages),
         donor_(scene, options),
         pairing_(scene_, donor_.scene()),
         partner_(pairing_.partners()),
@@ -212,7 +212,7 @@ class RunStart {
     scene_.fluid.start_time = donor_.time();
     for (fem::Settings& structure : scene_.structures) structure.start_time = donor_.time();
     char text[300];
-    std::snprintf(text, sizeof text, "start from the run of %s", donor_.words().c_str());
+    std::snprintf(text, sizeof text, "from the run of %s", donor_.words().c_str());
     std::string all = text;
     if (const auto [nearest, left] = nearest_obstacle(); nearest)
       all += ", " + scene::rounded(left * 1e3) + " mm before " + nearest->name;
@@ -302,7 +302,7 @@ class RunStart {
       if (!time && nearest_obstacle().second <= reach_ + before) break;
       if (donor_.time() >= scene_.end_time) pairing_.refuse("end_time", "it comes before the start");
       donor_.step_towards(end);
-      news_([&] { return "start from the run of " + donor_.words(); });
+      stages_.news([&] { return "the run of " + donor_.words(); });
     }
     const auto [nearest, left] = nearest_obstacle();
     if (nearest && left < 0.5 * reach_)
@@ -428,7 +428,7 @@ class RunStart {
 
   scene::Scene& scene_;
   const StartOptions& options_;
-  StartNews news_;
+  Stages& stages_;
   Donor donor_;
   Pairing pairing_;
   std::vector<std::optional<std::size_t>> partner_;  // the donor's bodies, by this scene's
@@ -439,6 +439,8 @@ class RunStart {
 
 }  // namespace
 
-std::string begin_from_run(scene::Scene& scene, const StartOptions& options) { return RunStart(scene, options).lay(); }
+std::string begin_from_run(scene::Scene& scene, const StartOptions& options, Stages& stages) {
+  return RunStart(scene, options, stages).lay();
+}
 
 }  // namespace undex::run

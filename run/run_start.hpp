@@ -13,6 +13,6 @@ namespace undex::run {
 /// Computes the donor that start.from names up to start.time, or until its first wave nears what only one of the two scenes has,
 /// and gives its state to the scene's bodies of the same names: their masses, momenta and energies become the donor's. Returns
 /// one line that says what was done. Throws SceneError where the scene or the donor do not allow it.
-std::string begin_from_run(scene::Scene& scene, const StartOptions& options);
+std::string begin_from_run(scene::Scene& scene, const StartOptions& options, Stages& stages);
 
 }  // namespace undex::run

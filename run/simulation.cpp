@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "coupling/wall_depth.hpp"
 #include "fem_structure/structure.hpp"
+#include "output/text_table.hpp"
 #include "scene/revolution.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_solid/solids.hpp"
@@ -115,17 +116,30 @@ std::string fastest_of(const std::vector<double>& v, const std::vector<double>& 
   return text;
 }
 
+/// "27,288 particles".
+std::string counted(std::size_t count, const std::string& what) { return output::grouped(std::int64_t(count)) + " " + what; }
+
+/// Bodies with a spacing of their own.
+std::string spacings_of(const scene::Scene& scene) {
+  std::string text;
+  for (const sph::Body& body : scene.fluid.bodies)
+    if (body.spacing && *body.spacing != scene.fluid.lattice.spacing)
+      text += ", '" + body.name + "' of " + output::with_unit(*body.spacing, "m");
+  return text;
+}
+
 }  // namespace
 
-Simulation::Simulation(const scene::Scene& scene, const sph::SettleNews& news) : meridian_(scene.meridian) {
+Simulation::Simulation(const scene::Scene& scene, Stages* stages) : meridian_(scene.meridian) {
   const scene::Scene solved = scene::for_solvers(scene);
   copies_ = scene::mirror_copies(scene);
   mirrored_ = scene.fluid.symmetry.axis;
-  build(solved, news);
+  Stages silent;
+  build(solved, stages ? *stages : silent);
   take_start(solved);
 }
 
-void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
+void Simulation::build(const scene::Scene& scene, Stages& stages) {
   std::vector<Finding> findings;
   const auto attempt = [&](const std::string& table, auto build) {
     try {
@@ -135,16 +149,29 @@ void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
     }
   };
   if (on_a_line(scene.geometry)) {
+    stages.begin("mesh");
     line_ = std::make_unique<LineFlow>(scene);
     driver_ = std::make_unique<OnALine>(*line_);
+    stages.end(counted(line_->cells(), "cells in one dimension"));
     return;
   }
-  if (!scene.fluid.bodies.empty()) attempt("resolution", [&] { fluid_ = std::make_unique<sph::Fluid>(scene.fluid); });
+  if (!scene.fluid.bodies.empty())
+    attempt("resolution", [&] {
+      stages.begin("lattice, walls");
+      fluid_ = std::make_unique<sph::Fluid>(scene.fluid);
+      stages.end(counted(fluid_->particle_count(), "particles") + " of " + output::with_unit(scene.fluid.lattice.spacing, "m") +
+                 spacings_of(scene));
+    });
   for (const fem::Settings& structure : scene.structures)
-    attempt(scene.path_of(structure), [&] { bodies_.push_back(std::make_unique<fem::Structure>(structure)); });
+    attempt(scene.path_of(structure), [&] {
+      stages.begin("structure");
+      bodies_.push_back(std::make_unique<fem::Structure>(structure));
+      stages.end("'" + structure.name + "': " + counted(bodies_.back()->size().cells, "cells"));
+    });
   solid::Solids* solids = nullptr;
   if (!scene.solids.bodies.empty())
     attempt("solids", [&] {
+      stages.begin("solids");
       auto built = std::make_unique<solid::Solids>(scene.solids, scene.fluid);
       if (fluid_) {
         const double on_wall = 1e-6 * scene.fluid.lattice.spacing;
@@ -152,6 +179,7 @@ void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
       }
       solids = built.get();
       bodies_.push_back(std::move(built));
+      stages.end(counted(bodies_.back()->size().particles, "particles"));
     });
   if (findings.empty() && fluid_)
     attempt("obstacles", [&] {
@@ -159,8 +187,23 @@ void Simulation::build(const scene::Scene& scene, const sph::SettleNews& news) {
       for (const auto& body : bodies_) flow_->watch(*body);
     });
   if (findings.empty()) attempt("coupling", [&] { make_driver(scene, solids); });
-  if (findings.empty() && fluid_) fluid_->settle(news);
+  if (findings.empty() && fluid_) settle(stages);
   if (!findings.empty()) throw SceneError(scene.file.string(), findings);
+}
+
+void Simulation::settle(Stages& stages) {
+  std::size_t most = 0;
+  double last = 0;
+  const auto words = [&](std::size_t moved) {
+    return counted(moved, "particles moved until they rest; pressure uneven by ") + output::print("%.2g %%", 100 * last);
+  };
+  stages.begin("settling");
+  fluid_->settle([&](std::size_t moved, double unevenness) {
+    most = std::max(most, moved);
+    last = unevenness;
+    stages.news([&] { return words(moved); });
+  });
+  if (most > 0) stages.end(words(most));
 }
 
 /// Water acts on the bodies that it touches, on several structures as one; others follow in time.

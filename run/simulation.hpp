@@ -15,6 +15,7 @@
 #include "output/run_record.hpp"
 #include "run/driver.hpp"
 #include "run/line_flow.hpp"
+#include "run/stages.hpp"
 #include "scene/scene.hpp"
 #include "sph_fluid/water/fluid.hpp"
 
@@ -53,8 +54,8 @@ struct StructureAccount {
 
 class Simulation {
  public:
-  /// An axisymmetric scene is computed in its meridian. Throws SceneError where a solver refuses its part of the scene.
-  explicit Simulation(const scene::Scene& scene, const sph::SettleNews& news = {});
+  /// An axisymmetric scene is computed in its meridian. `stages` is told what is built. Throws SceneError where a solver refuses its part of the scene.
+  explicit Simulation(const scene::Scene& scene, Stages* stages = nullptr);
 
   double time() const;
   long steps() const;
@@ -120,7 +121,8 @@ class Simulation {
   std::string fastest_particle() const;
 
  private:
-  void build(const scene::Scene& scene, const sph::SettleNews& news);
+  void build(const scene::Scene& scene, Stages& stages);
+  void settle(Stages& stages);
   /// `solids`: those in particles, if there are some.
   void make_driver(const scene::Scene& scene, solid::Solids* solids);
   void take_start(const scene::Scene& scene);

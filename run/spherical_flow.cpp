@@ -9,7 +9,7 @@
 namespace undex::run {
 namespace {
 
-[[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
+[[noreturn]] void refuse_flow(const scene::Scene& scene, const std::string& why) {
   throw SceneError(scene.file.string(), {{{}, "start.kind = \"spherical\": " + why}});
 }
 
@@ -57,10 +57,10 @@ std::size_t charge_of(const scene::Scene& scene) {
   const auto& bodies = scene.fluid.bodies;
   const std::vector<std::size_t> charges = charges_of(scene);
   if (charges.empty())
-    refuse(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
+    refuse_flow(scene, "no spherical body of gas or products; name one by start.body, or use start.kind = \"plain\"");
   if (charges.size() > 1)
-    refuse(scene, "bodies '" + bodies[charges[0]].name + "' and '" + bodies[charges[1]].name +
-                      "' are both spherical; name one by start.body");
+    refuse_flow(scene, "bodies '" + bodies[charges[0]].name + "' and '" + bodies[charges[1]].name +
+                           "' are both spherical; name one by start.body");
   return charges.front();
 }
 
@@ -72,7 +72,7 @@ std::size_t medium_of(const scene::Scene& scene, std::size_t charge) {
       if (const auto* other = std::get_if<Sphere>(&hole);
           other && other->center == sphere.center && other->radius == sphere.radius)
         return i;
-  refuse(scene, "no body surrounds the charge '" + bodies[charge].name + "'; the medium's `subtract` must name it");
+  refuse_flow(scene, "no body surrounds the charge '" + bodies[charge].name + "'; the medium's `subtract` must name it");
 }
 
 Sphere spherical_charge(const scene::Scene& scene) { return sphere_of(scene.fluid.bodies[charge_of(scene)]); }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int cells_in_charge = 250;
 
-[[noreturn]] void refuse(const scene::Scene& scene, const std::string& why) {
+[[noreturn]] void refuse_start(const scene::Scene& scene, const std::string& why) {
   throw SceneError(scene.file.string(), {scene.places.finding("start.kind", std::string("start.kind = \"") +
                                                                                 word_of(scene.start.kind) + "\": " + why)});
 }
@@ -75,12 +75,12 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
   const std::optional<double> share = kept_share(scene, sphere.center);
   for (int a = 0; a < 3; ++a)
     if (scene.fluid.symmetry.axis[a] && sphere.center[a] != 0.0 && sphere.center[a] < sphere.radius)
-      refuse(scene,
-             "the center of '" + body.name +
-                 "' must lie on every symmetry plane, or so far from it, on the kept side, that the plane does not cut the "
-                 "charge");
+      refuse_start(scene,
+                   "the center of '" + body.name +
+                       "' must lie on every symmetry plane, or so far from it, on the kept side, that the plane does not cut the "
+                       "charge");
   if (body.burn && !body.burn->instantaneous && body.burn->origin != sphere.center)
-    refuse(scene, "'" + body.name + "' must burn from its center");
+    refuse_start(scene, "'" + body.name + "' must burn from its center");
   const sph::Body& around = scene.fluid.bodies[medium];
   Charge charge{.body = index,
                 .sphere = sphere,
@@ -91,8 +91,8 @@ Charge charge_in(const scene::Scene& scene, std::size_t index, std::size_t mediu
   const auto last_front = [&](double way) { return way - reach - scene.fluid.lattice.spacing; };
   charge.last_front = last_front(charge.way());
   if (last_front(std::min(charge.obstacle, charge.exit)) <= sphere.radius)
-    refuse(scene, "the " + std::string(charge.exit < charge.obstacle ? "radiating face" : "obstacle") +
-                      " is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
+    refuse_start(scene, "the " + std::string(charge.exit < charge.obstacle ? "radiating face" : "obstacle") +
+                            " is too near to the charge for this spacing; take a smaller one, or start.kind = \"plain\"");
   return charge;
 }
 
@@ -111,9 +111,9 @@ void one_depth(const scene::Scene& scene, const std::vector<std::size_t>& charge
   };
   for (const std::size_t charge : charges)
     if (std::abs(pressure(charge) - pressure(charges.front())) > 1e-3 * std::abs(pressure(charges.front())) + 1.0)
-      refuse(scene, "'" + scene.fluid.bodies[charges.front()].name + "' and '" + scene.fluid.bodies[charge].name +
-                        "' lie in water under other pressures; put them at one depth, name one by start.body, or take "
-                        "start.kind = \"plain\"");
+      refuse_start(scene, "'" + scene.fluid.bodies[charges.front()].name + "' and '" + scene.fluid.bodies[charge].name +
+                              "' lie in water under other pressures; put them at one depth, name one by start.body, or take "
+                              "start.kind = \"plain\"");
 }
 
 /// The room left between the waves of two charges [m].
@@ -130,7 +130,7 @@ double least_room(const std::vector<Charge>& charges) {
 }
 
 /// Every flow to the time when the particles take over.
-void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charges, StartNews& news) {
+void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charges, Stages& stages) {
   const double spacing = scene.fluid.lattice.spacing;
   double stride = std::numeric_limits<double>::infinity();  // a hundredth of the way at about the speed of sound
   for (const Charge& charge : charges) stride = std::min(stride, (charge.last_front - charge.sphere.radius) / 2e5);
@@ -148,19 +148,19 @@ void advance(const scene::Scene& scene, double reach, std::vector<Charge>& charg
     if (scene.start.time) {
       for (const Charge& charge : charges) {
         if (charge.flow->front() > charge.obstacle - 0.5 * reach)
-          refuse(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
+          refuse_start(scene, "at start.time the wave has reached the obstacle; take an earlier time or leave it out");
         if (charge.radius() > charge.exit - 0.5 * reach)
-          refuse(scene, "at start.time the charge has grown to a radiating face; take an earlier time or leave it out");
+          refuse_start(scene, "at start.time the charge has grown to a radiating face; take an earlier time or leave it out");
       }
       if (least_room(charges) < reach)
-        refuse(scene, "at start.time the waves of two charges have met; take an earlier time or leave it out");
+        refuse_start(scene, "at start.time the waves of two charges have met; take an earlier time or leave it out");
     }
-    if (time() >= scene.end_time) refuse(scene, "end_time comes before the start");
-    news([&] {
+    if (time() >= scene.end_time) refuse_start(scene, "end_time comes before the start");
+    stages.news([&] {
       const SphericalFlow& flow = *charges.front().flow;
       char text[200];
-      std::snprintf(text, sizeof text, "spherical start: %.4g us, front at %.4g mm of %.4g mm", flow.time() * 1e6,
-                    flow.front() * 1e3, charges.front().way() * 1e3);
+      std::snprintf(text, sizeof text, "%.4g us, front at %.4g mm of %.4g mm", flow.time() * 1e6, flow.front() * 1e3,
+                    charges.front().way() * 1e3);
       return std::string(text);
     });
   }
@@ -203,28 +203,28 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
   const std::vector<sph::Body>& bodies = scene.fluid.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const sph::Body& body = bodies[b];
-    if (body.moves()) refuse(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
+    if (body.moves()) refuse_start(scene, "'" + body.name + "' moves, but all must be at rest" + remedy);
     if (std::find(in_motion.begin(), in_motion.end(), b) != in_motion.end()) continue;
-    if (body.burn) refuse(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
+    if (body.burn) refuse_start(scene, "'" + body.name + "' burns too, but nothing else may happen" + remedy);
     const double p = start_pressure(body), rest = at_rest(place_of_pressure(body, scene)).pressure;
     if (!is_rest(p, rest))
-      refuse(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium at " + scene::rounded(rest) +
-                        " Pa, but all else must stay at rest" + remedy);
+      refuse_start(scene, "'" + body.name + "' begins at " + scene::rounded(p) + " Pa, the medium at " + scene::rounded(rest) +
+                              " Pa, but all else must stay at rest" + remedy);
   }
   for (const solid::Body& solid : scene.solids.bodies) {
-    if (solid.moves()) refuse(scene, "solids must be at rest: '" + solid.name + "' moves");
+    if (solid.moves()) refuse_start(scene, "solids must be at rest: '" + solid.name + "' moves");
     if (solid.residual_stress != 0)
-      refuse(scene, "'" + solid.name + "' begins under stress, but all else must stay at rest" + remedy);
+      refuse_start(scene, "'" + solid.name + "' begins under stress, but all else must stay at rest" + remedy);
   }
   for (const coupling::Obstacle& obstacle : scene.obstacles)
     if (moves_by_itself(obstacle))
-      refuse(scene, "obstacle '" + obstacle.name + "' moves by itself, but all else must be at rest" + remedy);
+      refuse_start(scene, "obstacle '" + obstacle.name + "' moves by itself, but all else must be at rest" + remedy);
   const auto named = [&](const fem::Settings& structure) {
     return scene.structures_listed ? "structure '" + structure.name + "'" : std::string("the structure");
   };
   for (const fem::Settings& structure : scene.structures)
     if (structure.moves())
-      refuse(scene, named(structure) + " must be at rest, but it has a velocity; take start.kind = \"plain\"");
+      refuse_start(scene, named(structure) + " must be at rest, but it has a velocity; take start.kind = \"plain\"");
   // The wet face has what the medium has beyond the surroundings.
   const auto [least, most] = pressures_at_rest(medium, scene);
   const double around = scene.fluid.surroundings.pressure;
@@ -232,32 +232,33 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
     for (const fem::PressureLoad& load : structure.loads)
       for (const double p : load.pressure)
         if (p != 0 && !is_rest(std::clamp(p, least - around, most - around), p))
-          refuse(scene, "a load of " + scene::rounded(p) + " Pa acts on the face '" + load.face + "' of " + named(structure) +
-                            ", which is neither 0 nor the medium's " + scene::rounded(least - around) + " Pa" +
-                            (around > 0 ? " beyond the surroundings" : "") + ", but all else must stay at rest" + remedy);
+          refuse_start(scene, "a load of " + scene::rounded(p) + " Pa acts on the face '" + load.face + "' of " +
+                                  named(structure) + ", which is neither 0 nor the medium's " + scene::rounded(least - around) +
+                                  " Pa" + (around > 0 ? " beyond the surroundings" : "") + ", but all else must stay at rest" +
+                                  remedy);
 }
 
-std::string begin_spherically(scene::Scene& scene, StartNews news) {
+std::string begin_spherically(scene::Scene& scene, Stages& stages) {
   sph::Settings& fluid = scene.fluid;
   std::vector<std::size_t> indices = charges_of(scene);
   if (indices.empty()) indices = {charge_of(scene)};  // says what is missing
   const std::size_t medium = medium_of(scene, indices.front());
   for (const std::size_t index : indices)
     if (medium_of(scene, index) != medium)
-      refuse(scene, "'" + fluid.bodies[indices.front()].name + "' and '" + fluid.bodies[index].name +
-                        "' lie in different bodies; name one by start.body, or take start.kind = \"plain\"");
+      refuse_start(scene, "'" + fluid.bodies[indices.front()].name + "' and '" + fluid.bodies[index].name +
+                              "' lie in different bodies; name one by start.body, or take start.kind = \"plain\"");
   std::vector<std::size_t> in_motion = indices;
   in_motion.push_back(medium);
   require_rest(scene, in_motion, fluid.bodies[medium]);
   one_depth(scene, indices, fluid.bodies[medium]);
-  if (scene.start.time && *scene.start.time >= scene.end_time) refuse(scene, "end_time comes before the start");
+  if (scene.start.time && *scene.start.time >= scene.end_time) refuse_start(scene, "end_time comes before the start");
 
   const double reach = sph::kernel_support(fluid.numerics.kernel) * sph::smoothing_length(fluid, fluid.lattice.spacing);
   std::vector<Charge> charges;
   for (const std::size_t index : indices) charges.push_back(charge_in(scene, index, medium, reach));
   for (Charge& charge : charges)
     charge.flow = std::make_shared<SphericalFlow>(scene, charge.body, outer_radius(scene, charge), cells_in_charge);
-  advance(scene, reach, charges, news);
+  advance(scene, reach, charges, stages);
 
   std::string text;
   std::vector<SphericalState> states;
@@ -265,20 +266,19 @@ std::string begin_spherically(scene::Scene& scene, StartNews news) {
     const SphericalFlow& flow = *charge.flow;
     const std::string& name = fluid.bodies[charge.body].name;
     if (charges.size() > 1 && flow.front() <= charge.sphere.radius)
-      refuse(scene, "the waves of two charges meet before '" + name + "' has burned; take start.kind = \"plain\"");
+      refuse_start(scene, "the waves of two charges meet before '" + name + "' has burned; take start.kind = \"plain\"");
     const double radius = charge.radius();
     warn_of_coarse_gas(scene, charge, medium);
     for (const std::size_t index : {charge.body, medium})
       if (const auto& spacing = fluid.bodies[index].spacing; spacing && *spacing > radius)
-        refuse(scene, "the spacing of '" + fluid.bodies[index].name + "' exceeds the charge");
+        refuse_start(scene, "the spacing of '" + fluid.bodies[index].name + "' exceeds the charge");
     states.push_back({.flow = {charge.flow, &flow.mesh()},
                       .center = charge.sphere.center,
                       .front = flow.front(),
                       .bodies = {charge.body, medium},
                       .share = charge.share});
     char line[300];
-    std::snprintf(line, sizeof line,
-                  "%sspherical start: %ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
+    std::snprintf(line, sizeof line, "%s%ld steps to %.3f us; front at %.2f mm of %.2f mm, '%s' grown from %.2f to %.2f mm",
                   text.empty() ? "" : "\n", flow.mesh().steps(), flow.time() * 1e6, flow.front() * 1e3, charge.way() * 1e3,
                   name.c_str(), charge.sphere.radius * 1e3, radius * 1e3);
     text += line;

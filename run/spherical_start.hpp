@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "run/start_news.hpp"
+#include "run/stages.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
@@ -25,6 +25,10 @@ void require_rest(const scene::Scene& scene, const std::vector<std::size_t>& in_
 /// present radii, charges and medium get start fields, and the start time is set. Returns one line that says what was
 /// done. Throws SceneError where the scene does not allow a spherical start: where anything but the charges would not stay as it
 /// is until the particles take over.
-std::string begin_spherically(scene::Scene& scene, StartNews news = StartNews());
+std::string begin_spherically(scene::Scene& scene, Stages& stages);
+inline std::string begin_spherically(scene::Scene& scene) {
+  Stages silent;
+  return begin_spherically(scene, silent);
+}
 
 }  // namespace undex::run

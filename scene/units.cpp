@@ -30,7 +30,7 @@ ut_system* units() {
 }
 
 /// Seventy tenths of a millimetre are 0.007 m, and not what products of rounded factors make of them.
-double rounded(double value) {
+double without_noise(double value) {
   char digits[40];
   std::snprintf(digits, sizeof digits, "%.15g", value);
   return std::strtod(digits, nullptr);
@@ -63,7 +63,7 @@ Converted in_unit(const std::string& text, const std::string& unit) {
   const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(ut_get_converter(from.get(), to.get()), &cv_free);
   const double value = converter ? cv_convert_double(converter.get(), number) : std::nan("");
   if (!std::isfinite(value)) return {{}, "is too large"};
-  return {rounded(value), {}};
+  return {without_noise(value), {}};
 }
 
 }  // namespace undex::scene

@@ -1,5 +1,5 @@
 # Sourced by run_demo.sh and run_tests.sh: packages, configure, build. Not to be run by itself.
-# Gives $root (the project's folder, which becomes the working folder) and build_preset NAME.
+# Gives $root (the project's folder, which becomes the working folder), build_preset NAME [TARGET], stage and elapsed.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root" || exit 1
 
@@ -9,9 +9,51 @@ memory_jobs=$(($(awk '/MemAvailable/ {print $2}' /proc/meminfo) / 1500000))
 ((memory_jobs >= 1)) || memory_jobs=1
 ((jobs <= memory_jobs)) || jobs=$memory_jobs
 
-# build_preset NAME: configures and builds the preset of that name in build/NAME.
+in_words() { if (($1 < 60)); then printf '%d s' "$1"; else printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); fi; }
+elapsed() { in_words "$SECONDS"; }
+
+# stage WORDS: the stage that begins; the one before is closed with its time, which is kept for stage_table.
+stage_names=()
+stage_times=()
+stage_start=0
+close_stage() {
+  if ((${#stage_names[@]} > ${#stage_times[@]})); then stage_times+=($((SECONDS - stage_start))); fi
+}
+stage() {
+  close_stage
+  stage_names+=("$1")
+  stage_start=$SECONDS
+  printf '\n== %s%s\n' "$1" "${2:+ ($2)}"
+}
+stage_table() {
+  close_stage
+  local k
+  for k in "${!stage_names[@]}"; do printf '  %-44s %s\n' "${stage_names[k]}" "$(in_words "${stage_times[k]}")"; done
+}
+
+# Says how far ninja has come: a line that replaces itself on a terminal, one every fifteen seconds elsewhere.
+watch_build() {
+  local line said=$SECONDS begun=$SECONDS done all left
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (.*)$ ]]; then
+      done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]} left=
+      ((SECONDS - begun < 5 || done == 0)) || left=", about $(in_words $(((SECONDS - begun) * (all - done) / done))) left"
+      if [[ -t 1 ]]; then
+        printf '\r\033[K  compiled %d of %d%s' "$done" "$all" "$left"
+      elif ((SECONDS - said >= 15 || done == all)); then
+        printf '  compiled %d of %d%s\n' "$done" "$all" "$left"
+        said=$SECONDS
+      fi
+    else
+      [[ ! -t 1 ]] || printf '\r\033[K'
+      printf '%s\n' "$line"  # an error, or a warning
+    fi
+  done
+  [[ ! -t 1 ]] || printf '\r\033[K'
+}
+
+# build_preset NAME [TARGET]: configures and builds the preset of that name in build/NAME.
 build_preset() {
-  echo "== build ($1, $jobs at once)"
   local log
   log=$(mktemp)
   if ! cmake --preset "$1" >"$log" 2>&1; then
@@ -21,7 +63,5 @@ build_preset() {
     return 1
   fi
   rm -f "$log"
-  cmake --build --preset "$1" -j "$jobs"
+  NINJA_STATUS='[%f/%t] ' cmake --build --preset "$1" -j "$jobs" ${2:+--target "$2"} | watch_build
 }
-
-elapsed() { printf '%d min %02d s' $((SECONDS / 60)) $((SECONDS % 60)); }

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that undex needs: says which are missing and asks apt for those only.
+# Usage: scripts/install_packages.sh [all|program]; program: what is needed to build and use it, without the tests.
 # Run as root, or as a user with sudo. Does nothing (quickly) when all are there.
 set -euo pipefail
 
-packages=(
+program=(
   g++                    # the compiler, C++20
   cmake                  # configures the build
   ninja-build            # builds it
@@ -18,18 +19,25 @@ packages=(
   libudunits2-dev        # values with units in them
   libcli11-dev           # command line
   nlohmann-json3-dev     # summary.json
-  libgtest-dev           # tests
-  libnanoflann-dev       # tests: an independent neighbour search to check ours against
-  libbenchmark-dev       # bench/: Google Benchmark
-  clang-format           # tests: the tree is laid out as .clang-format says
-  valgrind               # tests: counts the instructions of a step
   python3                # post/: undex report and undex plot
   python3-numpy          # post/
   python3-matplotlib     # post/: pictures, colour maps, contours
   python3-h5py           # post/: reads the field files
   libjs-dygraphs         # post/: the charts of a report, copied into its page
+)
+tests=(
+  libgtest-dev           # tests
+  libnanoflann-dev       # tests: an independent neighbour search to check ours against
+  libbenchmark-dev       # bench/: Google Benchmark
+  clang-format           # tests: the tree is laid out as .clang-format says
+  valgrind               # tests: counts the instructions of a step
   chromium               # tests: opens reports, headless (414 MB with what it needs)
 )
+case ${1:-all} in
+  all) packages=("${program[@]}" "${tests[@]}") ;;
+  program) packages=("${program[@]}") ;;
+  *) echo "install_packages.sh: unknown word '$1'; usage: scripts/install_packages.sh [all|program]" >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "install_packages.sh: this is not Debian (no dpkg or apt-get). Install what corresponds to:" >&2

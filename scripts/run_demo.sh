@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a bare Debian machine to pictures: installs what is missing, builds, runs a charge in a water-filled aluminium tube, about
-# its axis and an octant in space, compares it with experiment and references, and draws it. Usage: scripts/run_demo.sh [folder]
+# From a bare Debian machine to one page to look at: installs what is missing, builds the program, runs a charge in a water-filled
+# aluminium tube, about its axis and an octant in space, and compares both with the experiment. Usage: scripts/run_demo.sh [folder]
 set -euo pipefail
 octant_spacing=0.002  # [m] of the octant in space; the tube about its axis has 0.5 mm
 
@@ -13,25 +13,25 @@ output=$(realpath -m "${1:-$(dirname "${BASH_SOURCE[0]}")/../out/demo}")
 SECONDS=0
 # shellcheck source=scripts/build.sh
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
-scripts/install_packages.sh
-build_preset release
-echo "== ready after $(elapsed)"
+undex=build/program/undex
+
+stage "packages" "one to three minutes where all are missing"
+scripts/install_packages.sh program
+stage "build of the program" "$jobs at once; two to four minutes at the first time on two cores"
+build_preset program undex
 
 mkdir -p "$(dirname "$output")"
-run_start=$SECONDS
-echo "== the tube in space, an octant of it at 2 mm, as shipped"
-build/release/undex run cases/al_tube_fem -o "${output}_octant" -P resolution.spacing=$octant_spacing --force
-octant_time=$((SECONDS - run_start))
-run_start=$SECONDS
-echo "== the tube about its axis at 0.5 mm: wall, water and charge named beforehand as the likeliest"
-build/release/undex run cases/al_tube_fem/experiment.toml -o "$output" --force
-run_time=$((SECONDS - run_start))
+stage "the tube about its axis, 0.5 mm" "the wall, water and charge that were named beforehand"
+"$undex" run cases/al_tube_fem/experiment.toml -o "$output" --force
+stage "the tube in space, an octant at 2 mm" "as shipped: another wall and water"
+"$undex" run cases/al_tube_fem -o "${output}_octant" -P resolution.spacing=$octant_spacing --force
+stage "the page"
+"$undex" report "$output" "${output}_octant" -o "$output.html"
 
-echo "== pictures"
-for run in "${output}_octant" "$output"; do build/release/undex plot "$run"; done
-
-echo
-echo "Results:  $output (summary.json, history/, fields/ for ParaView)"
-echo "Pictures: $output/pictures"
-echo "Octant:   ${output}_octant"
-echo "Time:     $(elapsed) in all, the tube about its axis $run_time s, the octant $octant_time s"
+printf '\nOuter wall at mid-length, displacement less the experiment:\n'
+"$undex" compare "$output" "${output}_octant" --label "about its axis 0.5 mm,octant 2 mm" --at 30,40,60,80,100,120,150 \
+  -o "${output}_compare" --force | sed -n '/experiment/p' || true
+printf '\nTime:\n'
+stage_table
+printf '  %-44s %s\n' "in all" "$(elapsed)"
+printf '\nOpen:  %s\n' "$output.html"

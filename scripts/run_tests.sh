@@ -17,15 +17,16 @@ SECONDS=0
 # shellcheck source=scripts/build.sh
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 scripts/install_packages.sh
+stage "build ($preset)" "$jobs at once"
 build_preset "$preset"
 
 # Tests side by side must not also fill every core each.
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
-echo "== tests ($preset)"
+stage "tests ($preset)"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 status=0
 ctest --preset "$preset" -j "$(nproc)" --output-on-failure --no-tests=error "${select[@]}" | tee "$log" || status=$?
-echo "== build and tests took $(elapsed)"
+printf "\n== build and tests took %s\n" "$(elapsed)"
 grep -a 'tests passed' "$log" | tail -n 1 || true
 exit "$status"

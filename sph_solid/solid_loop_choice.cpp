@@ -1,3 +1,6 @@
+#include <stdexcept>
+
+#include "sph_fluid/pairs/compiled_levels.hpp"
 #include "sph_fluid/pairs/cpu_level.hpp"
 #include "sph_solid/solid_loops.hpp"
 
@@ -14,28 +17,21 @@ using namespace sph;  // pairs, cells and kernels
   void contact_overlap(const PairInput&, const PairOutput&);   \
   void contact_forces(const PairInput&, const PairOutput&);    \
   }
-UNDEX_DECLARE_LEVEL(v4)
-UNDEX_DECLARE_LEVEL(v3)
-UNDEX_DECLARE_LEVEL(v2)
+UNDEX_COMPILED_LEVELS(UNDEX_DECLARE_LEVEL)
+
+#define UNDEX_LOOPS_AT(level)                                                            \
+  case CpuLevel::level:                                                                  \
+    return {.deformation = rings ? &level::ring_deformation : &level::solid_deformation, \
+            .forces = rings ? &level::ring_forces : &level::solid_forces,                \
+            .contact_overlap = &level::contact_overlap,                                  \
+            .contact_forces = &level::contact_forces};
 
 SolidLoops solid_loops(bool rings) {
   switch (chosen_cpu_level()) {
-    case CpuLevel::v4:
-      return {.deformation = rings ? &v4::ring_deformation : &v4::solid_deformation,
-              .forces = rings ? &v4::ring_forces : &v4::solid_forces,
-              .contact_overlap = &v4::contact_overlap,
-              .contact_forces = &v4::contact_forces};
-    case CpuLevel::v3:
-      return {.deformation = rings ? &v3::ring_deformation : &v3::solid_deformation,
-              .forces = rings ? &v3::ring_forces : &v3::solid_forces,
-              .contact_overlap = &v3::contact_overlap,
-              .contact_forces = &v3::contact_forces};
-    case CpuLevel::v2: break;
+    UNDEX_COMPILED_LEVELS(UNDEX_LOOPS_AT)
+    default: break;
   }
-  return {.deformation = rings ? &v2::ring_deformation : &v2::solid_deformation,
-          .forces = rings ? &v2::ring_forces : &v2::solid_forces,
-          .contact_overlap = &v2::contact_overlap,
-          .contact_forces = &v2::contact_forces};
+  throw std::logic_error("no pair loops for this machine: wrong_cpu_level() was not asked");
 }
 
 }  // namespace undex::solid

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "judge/metric_names.hpp"
 
 namespace undex::study {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void drop_differences(ComparedBlock& block) {
   for (ComparedRow& row : block.rows) {

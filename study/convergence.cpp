@@ -1,13 +1,12 @@
 #include "study/convergence.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace undex::study {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool usable(double value) { return value > 0 && std::isfinite(value); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.hpp"
 #include "output/text_table.hpp"
 
 namespace undex::study {
@@ -21,8 +22,6 @@ using output::print;
 using output::Series;
 using output::width;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double forever = std::numeric_limits<double>::infinity();
 // Below this share of the largest value a percentage says nothing: the first run passes zero, or has nothing but noise.
 constexpr double least_share = 1e-2;
 

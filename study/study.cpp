@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <sstream>
 
 #include "core/errors.hpp"
 #include "judge/comparisons.hpp"
@@ -13,6 +16,7 @@
 #include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
 #include "scene/suggestion.hpp"
+#include "study/slurm.hpp"
 #include "study/study_notes.hpp"
 #include "study/study_work.hpp"
 
@@ -28,8 +32,11 @@ void require_study_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored))
     throw UsageError(folder.string() + " exists and is not a folder; name another one with -o");
   bool empty = true;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    empty = empty && entry.path().filename() == output::folder_lock_name;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    empty = empty && (name == output::folder_lock_name ||
+                      name.find("study.toml") != std::string::npos);  // another shard is just writing it
+  }
   if (!empty && !fs::exists(folder / "study.toml", ignored))
     throw UsageError(folder.string() + " holds something that is no study; name another folder with -o");
 }
@@ -38,6 +45,16 @@ bool chosen(const std::string& name, const std::vector<std::string>& patterns) {
   return patterns.empty() || std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
            return name.find(pattern) != std::string::npos || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
          });
+}
+
+/// The runs of a shard, from the coarsest on, so that each has some of each size.
+std::set<std::size_t> runs_of(const Shard& shard, const scene::Study& study, const StudyTable& table) {
+  std::vector<std::size_t> order(study.runs.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return table.rows[a].h > table.rows[b].h; });
+  std::set<std::size_t> mine;
+  for (std::size_t k = std::size_t(shard.index - 1); k < order.size(); k += std::size_t(shard.count)) mine.insert(order[k]);
+  return mine;
 }
 
 /// Every pattern of --only must be of use.
@@ -57,10 +74,13 @@ struct Plan {
   std::vector<std::vector<std::string>> lines;  ///< name, "to run" or status, why
 };
 
-Plan plan_of(const scene::Study& study, const std::vector<RunState>& states, const StudyOptions& options) {
+Plan plan_of(const scene::Study& study, const std::vector<RunState>& states, const StudyTable& table,
+             const StudyOptions& options) {
   Plan plan;
+  std::set<std::size_t> mine;
+  if (options.shard) mine = runs_of(*options.shard, study, table);
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
-    if (!chosen(study.runs[r].name, options.only)) continue;
+    if (!chosen(study.runs[r].name, options.only) || (options.shard && !mine.contains(r))) continue;
     const RunState& state = states[r];
     const bool repeat = state.status == "done" && state.cpu_times.size() < std::size_t(study.repeats);
     const bool wanted = !state.finished || repeat || options.again;
@@ -74,11 +94,14 @@ Plan plan_of(const scene::Study& study, const std::vector<RunState>& states, con
   return plan;
 }
 
-std::string heading(const scene::Study& study, const fs::path& folder, const Plan& plan) {
+std::string heading(const scene::Study& study, const fs::path& folder, const Plan& plan, const StudyOptions& options) {
   std::string text = study.name + ": " + study.title + "\n" + count_of(study.runs.size(), "run") + " in " +
                      (folder / "runs").string() + ": " + axes_text(study) + "\n";
   const std::size_t matched = plan.lines.size();
-  if (matched < study.runs.size()) text += std::to_string(matched) + " chosen by --only; ";
+  if (options.shard)
+    text += "shard " + std::to_string(options.shard->index) + " of " + std::to_string(options.shard->count) + ": " +
+            std::to_string(matched) + " of them; ";
+  else if (matched < study.runs.size()) text += std::to_string(matched) + " chosen by --only; ";
   text += std::to_string(matched - plan.to_compute.size()) + " there, " + std::to_string(plan.to_compute.size()) + " to run";
   std::string why;
   for (const auto& [reason, count] : plan.reasons) why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
@@ -90,7 +113,9 @@ void begin_folder(StudyWork& work, const scene::Study& study, const fs::path& fo
   output::make_folder(folder / "runs");
   output::write_text_atomically(folder / "study.toml", output::text_of(study.file).value_or(""));
   output::write_text_atomically(folder / "study.json", study_json(work.table()));
-  work.rename_folders();
+  std::vector<std::size_t> all(study.runs.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  work.rename_folders(all);
   work.write_tables();
 }
 
@@ -104,10 +129,57 @@ void print_results(const scene::Study& study, const StudyTable& table, const std
     if (!row.message.empty() && row.status != "not run")
       std::printf("%s, %s: %s\n", row.name.c_str(), row.status.c_str(), row.message.c_str());
   std::printf("%s%s%s", missing_metrics(study, table).c_str(), other_programs(table, program).c_str(), left_over.c_str());
-  std::printf("%s and order.csv are written. Report: undex report %s\n", (folder / "study.csv").c_str(), folder.c_str());
+  std::printf("%s and order.csv are written. A page of it: undex report %s\n", (folder / "study.csv").c_str(), folder.c_str());
+}
+
+/// A share of the runs, beside other shares in the same folder. The tables are nobody's until all have ended.
+int compute_shard(StudyWork& work, const scene::Study& study, const fs::path& folder, const Plan& plan,
+                  const StudyOptions& options) {
+  const Shard& shard = *options.shard;
+  output::write_text_atomically(folder / "study.toml", output::text_of(study.file).value_or(""));  // first: it marks the folder
+  const output::FolderLock own(folder / "shards" / (std::to_string(shard.index) + "_of_" + std::to_string(shard.count)),
+                               "undex study --shard");
+  output::make_folder(folder / "runs");
+  work.share_the_folder();
+  work.rename_folders(plan.to_compute);
+  if (options.again) work.forget(plan.to_compute);
+  const int signal = work.compute(plan.to_compute, options.jobs);
+  bool failed = false;
+  const StudyTable table = work.table();
+  for (const std::size_t run : plan.to_compute)
+    failed = failed || table.rows[run].status == "failed" || table.rows[run].status == "refused";
+  if (!options.quiet)
+    std::printf("%s; the tables of all shards: undex study %s -o %s --table\n",
+                signal > 0 ? "interrupted; the same command goes on where this one ended" : "this shard has ended",
+                options.study.c_str(), folder.c_str());
+  return signal > 0 ? 128 + signal : failed ? exit_internal : exit_done;
+}
+
+/// Writes the job array, and says how it is used.
+int write_slurm(const scene::Study& study, const fs::path& folder, const Plan& plan, const StudyOptions& options) {
+  const int shards = *options.slurm > 0 ? *options.slurm : std::clamp(int(plan.to_compute.size()), 1, 1000);
+  output::make_folder(folder / "shards");
+  output::write_text_atomically(folder / "study.toml", output::text_of(study.file).value_or(""));
+  output::write_text_atomically(folder / "study.slurm", slurm_script(study, folder, shards));
+  std::printf(
+      "%s is written: %d shards for %zu runs that are not there. Submit it with the time that one may take:\n"
+      "  sbatch --time=4:00:00 %s\nWhen all have ended, the tables: undex study %s -o %s --table\n",
+      (folder / "study.slurm").c_str(), shards, plan.to_compute.size(), (folder / "study.slurm").c_str(), options.study.c_str(),
+      folder.c_str());
+  return exit_done;
 }
 
 }  // namespace
+
+Shard shard_of(const std::string& text) {
+  Shard shard;
+  char slash = 0;
+  std::istringstream words(text);
+  if (!(words >> shard.index >> slash >> shard.count) || slash != '/' || !words.eof() || shard.index < 1 || shard.count < 1 ||
+      shard.index > shard.count)
+    throw UsageError("--shard " + text + ": say which of how many, such as 2/8: the second of eight");
+  return shard;
+}
 
 int run_study(const StudyOptions& options) {
   const scene::Study study = scene::read_study(options.study, judge::comparison_kinds());
@@ -116,11 +188,11 @@ int run_study(const StudyOptions& options) {
   require_study_folder(folder);
   require_match(study, options.only);
   std::optional<output::FolderLock> lock;
-  if (!options.list) lock.emplace(folder, "undex study");
+  if (!options.list) lock.emplace(folder, "undex study", options.shard ? output::Holding::shared : output::Holding::alone);
   StudyWork work(study, references, folder, options.quiet);
   const auto left_over_now = [&] { return left_over_text(left_over(work.states(), study, folder / "runs")); };
-  const Plan plan = plan_of(study, work.states(), options);
-  const std::string text = heading(study, folder, plan);
+  const Plan plan = plan_of(study, work.states(), work.table(), options);
+  const std::string text = heading(study, folder, plan, options);
   if (options.list) {
     std::printf("%s%s%s", text.c_str(), output::aligned(plan.lines, 3).c_str(), left_over_now().c_str());
     return exit_done;
@@ -128,9 +200,11 @@ int run_study(const StudyOptions& options) {
   if (!options.quiet) std::printf("%s", text.c_str());
   std::fflush(stdout);
 
+  if (options.slurm) return write_slurm(study, folder, plan, options);
+  if (options.shard) return compute_shard(work, study, folder, plan, options);
   begin_folder(work, study, folder);
-  if (options.again) work.forget(plan.to_compute);
-  const int signal = work.compute(plan.to_compute, options.jobs);
+  if (options.again && !options.table) work.forget(plan.to_compute);
+  const int signal = work.compute(options.table ? std::vector<std::size_t>{} : plan.to_compute, options.jobs);
   work.write_tables();
   const StudyTable table = work.table();
   if (!options.quiet) print_results(study, table, options.program, left_over_now(), folder);

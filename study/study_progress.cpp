@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "output/text_table.hpp"
 
 namespace undex::study {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string left_text(double seconds) { return std::isnan(seconds) ? "" : "about " + output::duration(seconds) + " left"; }
 

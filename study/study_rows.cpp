@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "scene/suggestion.hpp"
 
 namespace undex::study {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What a table does not have that an error needs; empty where it has it.
 std::string lacks(const judge::ReferenceTable& table, const std::string& file, const scene::StudyError& error) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/constants.hpp"
 #include "study/convergence.hpp"
 #include "study/run_comparison.hpp"
 #include "output/text_table.hpp"
@@ -16,8 +17,6 @@ using output::aligned;
 using output::number;
 using output::print;
 using output::RunRecord;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double least(const std::vector<double>& times) { return times.empty() ? nan : *std::min_element(times.begin(), times.end()); }
 

@@ -11,6 +11,7 @@
 #include "output/files.hpp"
 #include "output/folder_lock.hpp"
 #include "output/text_table.hpp"
+#include "study/shell.hpp"
 
 namespace undex::study {
 namespace {
@@ -21,13 +22,6 @@ volatile std::sig_atomic_t first_signal = 0, signals = 0;
 void count_signal(int number) {
   if (signals == 0) first_signal = number;
   if (signals == 0 || end_signal(number).insists) signals = signals + 1;
-}
-
-std::string quoted_for_shell(const std::string& text) {
-  if (!text.empty() && text.find_first_of(" \"'[]{}()$&;*?!<>|#~\\") == std::string::npos) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
 }
 
 std::vector<std::string> run_arguments(const scene::StudyRun& run, const fs::path& folder) {
@@ -44,6 +38,15 @@ std::string said(const fs::path& log) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.size() > 500 ? text.substr(0, 497) + "..." : text;
+}
+
+bool in_use(const fs::path& folder) {
+  try {
+    const output::FolderLock free(folder, "undex study");
+    return false;
+  } catch (const UsageError&) {
+    return true;
+  }
 }
 
 /// The run's own record; nothing where it did not come to one.
@@ -70,6 +73,7 @@ StudyTable StudyWork::table() const {
 }
 
 void StudyWork::write_tables() const {
+  if (shared_) return;
   const StudyTable table = this->table();
   output::write_text_atomically(folder_ / "study.csv", study_csv(table));
   const std::vector<ObservedOrders> orders = observed_orders(table);
@@ -77,8 +81,8 @@ void StudyWork::write_tables() const {
   else output::write_text_atomically(folder_ / "order.csv", order_csv(orders));
 }
 
-void StudyWork::rename_folders() {
-  for (std::size_t r = 0; r < states_.size(); ++r) {
+void StudyWork::rename_folders(const std::vector<std::size_t>& runs) {
+  for (const std::size_t r : runs) {
     const fs::path own = folder_ / "runs" / study_.runs[r].name;
     if (states_[r].folder == own) continue;
     { const output::FolderLock not_in_use(states_[r].folder, "undex study"); }
@@ -120,6 +124,10 @@ void StudyWork::start_waiting(int jobs) {
 void StudyWork::start(std::size_t run) {
   RunState& state = states_[run];
   const fs::path own = folder_ / "runs" / study_.runs[run].name;
+  if (shared_ && in_use(own)) {
+    if (!quiet_) std::printf("%s is computed by another process: left to it\n", study_.runs[run].name.c_str());
+    return;
+  }
   Job job{.run = run, .repetition = state.finished, .resumes = state.resumable && state.folder == own, .child = nullptr};
   if (job.resumes) {
     job.cpu_before = state.record.cpu_time_s;

@@ -25,8 +25,10 @@ class StudyWork {
   StudyTable table() const;
   /// study.csv and, where there is something in it, order.csv. Throws FileError.
   void write_tables() const;
-  /// Runs that are in folders of other names get their own. Throws FileError.
-  void rename_folders();
+  /// Those of the runs that are in folders of other names get their own. Throws FileError.
+  void rename_folders(const std::vector<std::size_t>& runs);
+  /// Others compute other runs in the same folder: they write no table, and leave alone what one of them computes.
+  void share_the_folder() { shared_ = true; }
   /// What is there of these runs does not count.
   void forget(const std::vector<std::size_t>& runs);
   /// Computes the runs, `jobs` at a time, coarse ones first. Returns when all have ended, or after a signal: that, else 0.
@@ -60,7 +62,7 @@ class StudyWork {
   std::filesystem::path folder_;
   std::vector<RunState> states_;
   std::vector<StudyRow> rows_;
-  bool quiet_;
+  bool quiet_, shared_ = false;
   int passed_on_ = 0;                 ///< signals that the runs have been sent
   std::vector<std::size_t> pending_;  ///< the next one last
   std::vector<std::unique_ptr<Job>> active_;

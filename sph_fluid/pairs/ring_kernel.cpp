@@ -52,11 +52,11 @@ ColumnSums sums_of(double eta, int count) {
 }
 
 /// Both functions at the columns nearer to the axis than `far_away`.
-struct Columns {
+struct KernelColumns {
   Eigen::VectorXd a, slope;
 };
 
-Columns solve(const ColumnSums& s, double eta) {
+KernelColumns solve(const ColumnSums& s, double eta) {
   const int all = int(s.r.size()), near = int(far_away * eta);
   // Of V = r dx^2 the sums have the area already.
   const Eigen::MatrixXd w = s.w * s.r.asDiagonal();
@@ -105,7 +105,7 @@ class MirroredSpline {
 };
 
 /// The functions at steps of 1/steps_per_h, through the columns.
-std::vector<Ring> tabulated(const Columns& c, double eta, const MirroredSpline& fine_a, const MirroredSpline& fine_slope) {
+std::vector<Ring> tabulated(const KernelColumns& c, double eta, const MirroredSpline& fine_a, const MirroredSpline& fine_slope) {
   Eigen::VectorXd a = c.a, slope = c.slope;
   for (int k = 0; k < a.size(); ++k) {
     const double zeta = (k + 0.5) / eta;
@@ -148,7 +148,7 @@ RingKernel::RingKernel(KernelName kernel, double eta) {
   };
   lattice_sum_ = sums(eta).sum;
   constexpr double fine = 12.0;
-  const Columns continuum = solve(sums(fine), fine);
+  const KernelColumns continuum = solve(sums(fine), fine);
   const MirroredSpline fine_a(continuum.a, fine, 1.0), fine_slope(continuum.slope, fine, -1.0);
   table_ = tabulated(solve(sums(eta), eta), eta, fine_a, fine_slope);
 }

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sph_fluid/pairs/compiled_levels.hpp"
 #include "sph_fluid/pairs/cpu_level.hpp"
 
 namespace undex::sph {
@@ -35,18 +36,18 @@ PairLoops put_together(KernelName kernel, CompiledLoop rates, PairLoop gradients
   }                                                                                               \
   }
 
-UNDEX_LOOPS_OF(v4)
-UNDEX_LOOPS_OF(v3)
-UNDEX_LOOPS_OF(v2)
+UNDEX_COMPILED_LEVELS(UNDEX_LOOPS_OF)
+
+#define UNDEX_LOOPS_AT(level) \
+  case CpuLevel::level: return level::loops(kernel, scheme, precision, rings);
 
 PairLoops pair_loops(KernelName kernel, SchemeName scheme, Precision precision, bool rings) {
   if (rings && !has_rings(scheme)) throw std::invalid_argument("scheme.name: this scheme does not compute rings about an axis");
   switch (chosen_cpu_level()) {
-    case CpuLevel::v4: return v4::loops(kernel, scheme, precision, rings);
-    case CpuLevel::v3: return v3::loops(kernel, scheme, precision, rings);
-    case CpuLevel::v2: break;
+    UNDEX_COMPILED_LEVELS(UNDEX_LOOPS_AT)
+    default: break;
   }
-  return v2::loops(kernel, scheme, precision, rings);
+  throw std::logic_error("no pair loops for this machine: wrong_cpu_level() was not asked");
 }
 
 }  // namespace undex::sph

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/constants.hpp"
 #include "core/surface.hpp"
 
 namespace undex::sph {
@@ -15,7 +15,6 @@ namespace {
 
 using Place = std::array<long, 3>;
 using Direction = std::function<Vec3(const Vec3&)>;
-constexpr double pi = std::numbers::pi;
 
 /// Places that differ by round-off are one node.
 Place rounded(const Vec3& x, double spacing) {

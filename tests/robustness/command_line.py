@@ -1259,6 +1259,60 @@ resolution.spacing = 0.0002
         self.assertEqual(runs.summary(self.here / "out/study_gas/runs/long")["status"], "interrupted")
         self.assertIn("1 there, 1 to run (1 half-finished)", self.undex("study", "gas.toml", "--list").stdout)
 
+    def test_shards(self):
+        """Three at the same time compute each run once; the tables are those of one study."""
+        self.study()
+        self.ends(self.undex("study", "gas.toml", "-o", "whole"), 0)
+        shards = [subprocess.Popen([PROGRAM, "study", "gas.toml", "--shard", f"{k}/3"], cwd=self.here, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) for k in (1, 2, 3)]
+        for shard in shards:
+            said, wrong = shard.communicate(timeout=60)
+            self.assertEqual(shard.returncode, 0, said + wrong)
+            self.assertIn("undex study gas.toml -o out/study_gas --table", said)
+        self.assertFalse((self.here / "out/study_gas/study.csv").exists())
+        before = self.written()
+        self.assertEqual(set(before), set(self.NAMES))
+        self.ends(self.undex("study", "gas.toml", "--table"), 0)
+        self.assertEqual(self.written(), before)
+        whole, merged = self.rows("whole"), self.rows()
+        self.assertEqual(list(merged), list(whole))
+        for name, row in whole.items():
+            for key in ("status", "curve", "error: energy_error", "steps", "mass_error", "particles"):
+                self.assertEqual(merged[name][key], row[key], (name, key))
+        self.assertIn("4 there, 0 to run", self.undex("study", "gas.toml", "--list").stdout)
+
+    def test_table_of_a_study_in_part(self):
+        self.study()
+        self.ends(self.undex("study", "gas.toml", "--shard", "2/2"), 0)
+        self.ends(self.undex("study", "gas.toml", "--table"), 0)
+        self.assertEqual(sorted(row["status"] for row in self.rows().values()), ["done", "done", "not run", "not run"])
+
+    def test_shards_that_are_none(self):
+        self.study()
+        for word in ("0/2", "3/2", "1", "1/0", "a/b", "1/2x", "-1/2", "1/2/3"):
+            self.ends(self.undex("study", "gas.toml", f"--shard={word}"), 2, "such as 2/8")
+        self.ends(self.undex("study", "gas.toml", "--shard", "1/2", "--table"), 2)
+        self.assertFalse((self.here / "out").exists())
+
+    def test_a_shard_beside_the_whole_study(self):
+        self.study(self.LONG)
+        with self.started() as process:
+            self.ends(self.undex("study", "gas.toml", "--shard", "1/2"), 2, "out/study_gas is in use by undex study, process")
+            process.send_signal(signal.SIGTERM)
+            process.communicate(timeout=60)
+
+    def test_slurm(self):
+        """The script is one that a shell understands, and a task of it is a shard."""
+        self.study()
+        self.ends(self.undex("study", "gas.toml", "--slurm", "2"), 0)
+        script = self.here / "out/study_gas/study.slurm"
+        self.assertIn("#SBATCH --array=1-2\n", script.read_text())
+        for task in ("1", "2"):
+            finished = subprocess.run(["bash", script], cwd="/", env={**runs.ENVIRONMENT, "SLURM_ARRAY_TASK_ID": task},
+                                      capture_output=True, text=True, timeout=60)
+            self.assertEqual(finished.returncode, 0, finished.stdout + finished.stderr)
+        self.assertEqual(set(self.written()), set(self.NAMES))
+
     def test_interrupt(self):
         self.signalled(signal.SIGINT, 130)
 
@@ -1444,7 +1498,7 @@ class Telling(Case):
         finished = self.undex("run", CASES / "sjogreen", "-o", "out", "-v", *runs.overrides(QUICK))
         self.ends(finished, 0)
         steps = runs.summary(self.here / "out")["steps"]
-        self.assertRegex(finished.stdout, r"(?m)^ *step +time .*dt .*set by +energy err +p max .*steps/s +left$")
+        self.assertRegex(finished.stdout, r"(?m)^ *step +time +step size +set by +energy error +largest p +steps/s +left$")
         self.assertEqual(len(re.findall(r"(?m)^ *\d+ +[\d.]+ .*\((?:left|right)", finished.stdout)), steps)
         self.assertNotIn("\r", finished.stdout)  # no bar but on a terminal
 
@@ -1454,14 +1508,14 @@ class Telling(Case):
             with subprocess.Popen([PROGRAM, "run", CASES / "rigid_cylinder", "-o", "out", *runs.overrides(LONG)], cwd=self.here,
                                   stdout=theirs, stderr=subprocess.DEVNULL, env=runs.ENVIRONMENT) as process:
                 shown, end = b"", time.monotonic() + 60
-                while b" left " not in shown and time.monotonic() < end:
+                while not re.search(rb"dt .* by ", shown) and time.monotonic() < end:
                     if select.select([ours], [], [], 1)[0]:
                         shown += os.read(ours, 4096)
                 process.kill()
         finally:
             os.close(ours)
             os.close(theirs)
-        self.assertRegex(shown.decode(), r"\r\[#* *\] +\d+\.\d %, .* left")
+        self.assertRegex(shown.decode(), r"\r\x1b\[K\[#*\.*\] +\d+ %  .* left  energy .*/s  step \d+ at .*s  dt .*s by ")
 
 
 def names():

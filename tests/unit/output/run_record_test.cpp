@@ -48,6 +48,21 @@ TEST(RunRecord, CoupledRunsTellTheInterfaceError) {
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(to_json(record))["interface_impulse_error"], 1e-15);
 }
 
+TEST(RunRecord, TrustReadsBack) {
+  const TemporaryFolder folder;
+  RunRecord record = sample();
+  EXPECT_FALSE(nlohmann::json::parse(to_json(record)).contains("trust"));
+  record.trust = {{"energy", Trust::good, "fine"}, {"charge", Trust::notice, "coarse"}, {"mass", Trust::bad, "lost"}};
+  write_summary(folder.path / "summary.json", record);
+  const RunRecord back = read_summary(folder.path / "summary.json");
+  ASSERT_EQ(back.trust.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(back.trust[k].about, record.trust[k].about);
+    EXPECT_EQ(back.trust[k].level, record.trust[k].level);
+    EXPECT_EQ(back.trust[k].text, record.trust[k].text);
+  }
+}
+
 TEST(RunRecord, ObstaclesReadBack) {
   const TemporaryFolder folder;
   RunRecord record = sample();

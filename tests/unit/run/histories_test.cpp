@@ -34,7 +34,7 @@ class Histories : public testing::Test {
   };
   Observed observed(const scene::Scene& read) {
     scene::Scene scene = read;
-    begin(scene, {.quiet = true, .numerics = "", .output = ""});
+    begin(scene, {.numerics = "", .output = ""});
     Simulation simulation(scene);
     Observer observer(scene, read, simulation, folder_, false);
     observer.begin(simulation);

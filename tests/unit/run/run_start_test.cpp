@@ -225,7 +225,7 @@ TEST(RunStart, AFolderAndASceneGiveTheSameDigits) {
   }
   const auto digits = [&](const fs::path& donor, std::string& report) {
     scene::Scene scene = read_text(started(in_space(0.004, "[\"x\", \"y\"]"), donor, "4e-6"));
-    report = begin(scene, {.quiet = true, .numerics = "of the test", .output = {}});
+    report = begin(scene, {.numerics = "of the test", .output = {}});
     Simulation simulation(scene);
     return output::fingerprint([&](StateVisitor& state) { simulation.visit_state(state); });
   };
