@@ -82,6 +82,8 @@ class WholeRun(Page):
         self.says(
             self.text,
             "What was computed",
+            "Can it be trusted?",
+            "spacings in its radius",
             "sphere of radius 7.396 mm",
             "cylinder of radius 44.45 mm, 228.6 mm long along z",
             "37.05 mm",
@@ -245,6 +247,7 @@ class HostileNames(Page):
         summary = json.loads((folder / "summary.json").read_text())
         summary.update(
             warnings=[HOSTILE],
+            trust=[{"about": HOSTILE, "level": HOSTILE, "text": HOSTILE}],
             program=HOSTILE,
             status=HOSTILE,
             message=HOSTILE,

@@ -40,6 +40,7 @@ class RunReport:
         parts = [
             ("computed", "What was computed", self._computed),
             ("resolution", "Resolution", self._resolution),
+            ("trust", "Can it be trusted?", self._trust),
             ("results", "Results beside references", self._results),
             ("mid-plane", "Profiles" if all(run.is_on_a_line for run in self.runs) else "The mid-plane", self._mid_planes),
             ("histories", "Histories", self._histories),
@@ -112,6 +113,9 @@ class RunReport:
 
     def _resolution(self) -> Raw:
         return run_parts.resolution(self.runs, self.labels)
+
+    def _trust(self) -> Raw:
+        return self._each(run_parts.trust)
 
     # ------------------------------------------------------------------------------------------------ results
 

@@ -181,6 +181,17 @@ def largest_values(run: Run, label: str) -> Raw:
     )
 
 
+def trust(run: Run) -> Raw:
+    """What the program says of each matter that its numbers depend on."""
+    marks = {"good": ("ok", "good"), "notice": ("note", "warn"), "bad": ("bad", "bad")}
+    rows = []
+    for each in run.summary.get("trust") or []:
+        if isinstance(each, dict):
+            word, colour = marks.get(str(each.get("level")), ("bad", "bad"))
+            rows.append([tag("b", word, class_=colour), each.get("about", ""), each.get("text", "")])
+    return table(["", "matter", "what is known"], rows) if rows else tag("p", "The record of the run does not say.")
+
+
 def cost(run: Run) -> Raw:
     """Steps, times, memory, and where the time went."""
     summary = run.summary
