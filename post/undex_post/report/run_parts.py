@@ -188,8 +188,10 @@ def trust(run: Run) -> Raw:
     for each in run.summary.get("trust") or []:
         if isinstance(each, dict):
             word, colour = marks.get(str(each.get("level")), ("bad", "bad"))
-            rows.append([tag("b", word, class_=colour), each.get("about", ""), each.get("text", "")])
-    return table(["", "matter", "what is known"], rows) if rows else tag("p", "The record of the run does not say.")
+            if each.get("about") == "known limit":  # of the scheme, not of this run
+                word, colour = "–", "muted"
+            rows.append([Raw(f'{tag("b", word, class_=colour)} {tag("span", each.get("about", ""))}'), each.get("text", "")])
+    return table(["matter", "what is known"], rows) if rows else tag("p", "The record of the run does not say.")
 
 
 def cost(run: Run) -> Raw:
