@@ -234,7 +234,7 @@ void describe(Revolution& revolution, Visit&& visit) {
                             .needed = true,
                             .remedy = "give the corners of the meridian, e.g. points = [[0, 0], [0.1, 0], [0, 0.3]]",
                             .values = "[[r, z], ...], r at least 0",
-                            .meaning = "corners of the meridian in turn, r from the axis, z along it; the last joins the first"});
+                            .meaning = "corners of the meridian in turn; the last joins the first"});
 }
 
 class TriangleSurface;

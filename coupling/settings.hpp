@@ -64,7 +64,7 @@ void describe(Obstacle& obstacle, Visit&& visit) {
                    .values = "[shape](#shapes)",
                    .meaning = "its place at the start; the bodies of water leave room for it by themselves"});
   visit(obstacle.motion,
-        {.name = "motion", .meaning = "at rest for ever; driven by the water, gravity and `force`; or with the given `speed`"});
+        {.name = "motion", .meaning = "at rest; driven by water, gravity and `force`; or with the given `speed`"});
   visit(obstacle.condition, {.name = "condition", .meaning = "the water slips along it; \"no_slip\" is not built, and refused"});
   const bool free = obstacle.motion == Motion::free, told = obstacle.motion == Motion::prescribed;
   visit(obstacle.density, {.name = "density",
@@ -83,7 +83,7 @@ void describe(Obstacle& obstacle, Visit&& visit) {
                            .rule = "that of a uniform density",
                            .values = "[xx, yy, zz] or [xx, yy, zz, xy, yz, zx]; in 2D [zz]",
                            .used = free,
-                           .meaning = "moments of inertia of a free body about its middle of mass, which is that of the shape"});
+                           .meaning = "moments of inertia of a free body about the middle of the shape"});
   visit(obstacle.fixed, {.name = "fixed",
                          .values = "list of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\"",
                          .used = free,
@@ -95,13 +95,11 @@ void describe(Obstacle& obstacle, Visit&& visit) {
                              .rule = "none",
                              .used = told || !obstacle.force.empty(),
                              .meaning = "of `speed` or `force`, of any length"});
-  visit(obstacle.time,
-        {.name = "time",
-         .unit = "s",
-         .values = "list, increasing",
-         .used = told || !obstacle.force.empty(),
-         .meaning = "of the values of `speed` or `force`, which are linear between these times and constant before "
-                    "and after"});
+  visit(obstacle.time, {.name = "time",
+                        .unit = "s",
+                        .values = "list, increasing",
+                        .used = told || !obstacle.force.empty(),
+                        .meaning = "of the values of `speed` or `force`: linear between, constant before and after"});
   visit(obstacle.speed, {.name = "speed",
                          .unit = "m/s",
                          .values = "list",
@@ -111,8 +109,7 @@ void describe(Obstacle& obstacle, Visit&& visit) {
                          .unit = "N",
                          .values = "list",
                          .used = free,
-                         .meaning = "\"free\": acts along `direction` at these times, at the middle of mass: pressure times area "
-                                    "of a piston's dry side, say"});
+                         .meaning = "\"free\": acts along `direction` at these times, at the middle of mass"});
 }
 
 }  // namespace undex::coupling

@@ -116,20 +116,20 @@ void describe(GmshMesh& mesh, Visit&& visit) {
                     .needed = true,
                     .remedy = "give the .msh file, relative to the scene file",
                     .values = "a .msh file of hexahedra",
-                    .meaning = "relative to the scene file; of shells of quadrangles; in an axisymmetric scene of quadrangles: "
-                               "the file's x is the distance from the axis of revolution, its y the coordinate along it"});
-  visit(mesh.scale,
-        {.name = "scale",
-         .range = Range::above(0, 1e6),
-         .meaning = "times the file's lengths makes metres: 1e-3 for millimetres (not of `thickness`, which is in m)"});
+                    .meaning = "relative to the scene file; shells and meridians need quadrangles"});
+  visit(mesh.scale, {.name = "scale",
+                     .range = Range::above(0, 1e6),
+                     .meaning = "times the file's lengths makes metres: 1e-3 for millimetres; `thickness` is in m"});
   visit(mesh.thickness, {.name = "thickness",
                          .unit = "m",
                          .range = Range::length(),
                          .rule = "that of `parts`",
                          .meaning = "of shells: that of every group which has none of its own in `parts`"});
-  visit(mesh.offset, {.name = "offset",
-                      .meaning = "of shells: where they lie from the quadrangles, half to either side, or all on the side of "
-                                 "their normals (\"top\"), or on the other"});
+  visit(
+      mesh.offset,
+      {.name = "offset",
+       .meaning =
+           "of shells: half to either side of the quadrangles, or all on the side of their normals (\"top\"), or on the other"});
 }
 
 /// The counts of a mesh's cells, all of the whole body: a second record of the same mesh.

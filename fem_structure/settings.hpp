@@ -103,16 +103,11 @@ void describe(Settings& structure, Visit&& visit) {
                    .unit = "m",
                    .range = Range::length(),
                    .rule = "half the thickness, a shell's whole; a sixth of a rod's radius",
-                   .meaning = "largest size of a cell, in place of `cells`; a shell has one through the wall all the same"});
-  visit(structure.element,
-        {.name = "element",
-         .meaning = "\"shell\": solid shells for thin walls, of a tube, ring or plate (across its thinnest extent), or of a "
-                    "gmsh mesh of quadrangles; in an axisymmetric scene of a rod too, which is a disc (along its axis)"});
-  visit(structure.points_through,
-        {.name = "points_through",
-         .range = Range::between(2, 10),
-         .meaning = "of shells: Gauss points through the thickness of a cell; take 5 where plastic bending "
-                    "counts"});
+                   .meaning = "largest size of a cell, in place of `cells`; of shells not through the wall"});
+  visit(structure.element, {.name = "element", .meaning = "\"shell\": solid shells, one cell through a thin wall"});
+  visit(structure.points_through, {.name = "points_through",
+                                   .range = Range::between(2, 10),
+                                   .meaning = "of shells: Gauss points through the thickness; 5 where plastic bending counts"});
   visit(ByHand{}, {.name = "material",
                    .needed = structure.parts.empty(),
                    .remedy = "e.g. material = \"al-5083-h116\" ('undex materials' lists them)",

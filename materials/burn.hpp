@@ -36,11 +36,10 @@ struct ProgrammedBurn {
 
 template <class Visit>
 void describe(ProgrammedBurn& burn, Visit&& visit) {
-  visit(ByHand{},
-        {.name = "model",
-         .rule = "\"programmed\"",
-         .values = "\"programmed\", \"instantaneous\"",
-         .meaning = "a front that runs at given speed, or all products at full energy from the start (then no other key)"});
+  visit(ByHand{}, {.name = "model",
+                   .rule = "\"programmed\"",
+                   .values = "\"programmed\", \"instantaneous\"",
+                   .meaning = "a front that runs at given speed, or products at full energy from the start"});
   visit(burn.origin, {.name = "initiation",
                       .unit = "m",
                       .range = Range::position(),
@@ -51,15 +50,12 @@ void describe(ProgrammedBurn& burn, Visit&& visit) {
   visit(burn.width, {.name = "width",
                      .unit = "m",
                      .range = Range::between(0, Range::farthest),
-                     .rule = "6 spacings, at most 1/12 of the way from the initiation to the body's farthest side, at least 1.5 "
-                             "spacings",
+                     .rule = "1.5 to 6 spacings, at most 1/12 of the way that the front runs",
                      .meaning = "over which the burn rises, the front in its middle; 0: at once"});
-  visit(burn.cj_compression,
-        {.name = "cj_compression",
-         .range = Range::between(0, 5),
-         .rule = "from the material",
-         .meaning = "density over `rho0` at which squeezed explosive has burned even before the front; 0 or 1: "
-                    "off"});
+  visit(burn.cj_compression, {.name = "cj_compression",
+                              .range = Range::between(0, 5),
+                              .rule = "from the material",
+                              .meaning = "density over `rho0` at which explosive burns before the front; 0 or 1: off"});
 }
 
 /// Burn of the explosive `products` from `origin` [m] with a front `width` [m] wide, at the published

@@ -63,7 +63,7 @@ void describe(Jwl::Parameters& p, Visit&& visit) {
                    .unit = "Pa",
                    .range = Range::positive(),
                    .rule = "from `E0`",
-                   .meaning = "of the isentrope A exp(-R1 V) + B exp(-R2 V) + C V^-(1 + omega), V = rho0/rho, in place of `E0`"});
+                   .meaning = "constant of the isentrope, in place of `E0`"});
   visit(p.D, {.name = "D",
               .unit = "m/s",
               .range = Range::positive(),

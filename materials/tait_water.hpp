@@ -112,9 +112,8 @@ void describe(TaitWater::Parameters& p, Visit&& visit) {
   visit(p.B, {.name = "B", .unit = "Pa", .range = Range::positive(), .meaning = "stiffness"});
   visit(p.N, {.name = "N", .range = Range::above(1, 100), .meaning = "its exponent"});
   visit(p.A, {.name = "A", .unit = "Pa", .meaning = "pressure at `rho0`"});
-  visit(p.cavitation, {.name = "cavitation",
-                       .meaning = "mixture below `p_sat` (two models: \"schmidt\", \"isentropic\"), pressure "
-                                  "held at `p_floor`, or tension"});
+  visit(p.cavitation,
+        {.name = "cavitation", .meaning = "a mixture below `p_sat` (two models), a least pressure `p_floor`, or tension"});
   const bool schmidt = p.cavitation == Cavitation::schmidt, isentropic = p.cavitation == Cavitation::isentropic;
   visit(p.mixture.density_ratio,
         {.name = "density_ratio", .range = Range::above(0, 1), .used = schmidt || isentropic, .meaning = "vapour over liquid"});

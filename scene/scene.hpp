@@ -50,9 +50,7 @@ template <class Visit>
 void describe(Start& start, Visit&& visit) {
   visit(start.kind,
         {.name = "kind",
-         .meaning = "every body uniform at time zero; or the flow of spherical charges computed on fine one-dimensional "
-                    "meshes until a wave nears the first obstacle, and laid on the particles then; or one body carries a "
-                    "plane wave at time zero; or the state of a simpler run"});
+         .meaning = "uniform bodies; spherical charges computed on a radius first; a plane wave; or the state of a simpler run"});
   const bool wave = start.kind == Start::Kind::plane_wave, run = start.kind == Start::Kind::run;
   visit(start.body, {.name = "body",
                      .rule = "all spherical gas and charges; the only body",
@@ -133,9 +131,7 @@ void describe(Probe& probe, Visit&& visit) {
   visit(probe.kind,
         {.name = "kind",
          .rule = "\"fluid\"; \"structure\" without bodies",
-         .meaning =
-             "a fixed point of the fluid; of a rigid wall, wet face, solid or obstacle, with which it moves; a material point "
-             "of the structure or of a solid"});
+         .meaning = "a fixed point of the fluid; a place on a wall or wet face; a material point of a structure or solid"});
   visit(probe.structure, {.name = "structure",
                           .rule = "the only one",
                           .values = "a name",
@@ -214,20 +210,13 @@ void describe(Output& output, Visit&& visit) {
                                   .unit = "s",
                                   .range = Range::between(0, 1e3),
                                   .meaning = "between rows of histories; 0: every step"});
-  visit(output.histories,
-        {.name = "histories",
-         .values = "list of \"bodies\", \"largest\", \"forces\", \"one_dimensional\"",
-         .meaning =
-             "what is noted beside probes, obstacles and energies: each body's volume, radius, centre, pressure and energies "
-             "(bodies.csv); largest values with places and times (summary.json); force and impulse of the water on the structure "
-             "and "
-             "on slip faces of walls (forces.csv); at fluid probes the pressure of the "
-             "charge's one-dimensional flow, as long as nothing else can have come there (history/<probe>_1d.csv)"});
+  visit(output.histories, {.name = "histories",
+                           .values = "list of \"bodies\", \"largest\", \"forces\", \"one_dimensional\"",
+                           .meaning = "what is written beside probes, obstacles and energies"});
   visit(output.checkpoint_interval, {.name = "checkpoint_interval",
                                      .unit = "s",
                                      .range = Range::between(0, 1e9),
-                                     .meaning = "wall time between checkpoints, which `undex resume` goes on from; one is also "
-                                                "written at the end and at a signal; 0: none"});
+                                     .meaning = "wall time between checkpoints, from which `undex resume` continues; 0: none"});
   visit(output.field_interval, {.name = "field_interval",
                                 .unit = "s",
                                 .range = Range::between(0, 1e3),
@@ -319,8 +308,7 @@ void describe(Scene& scene, Visit&& visit) {
   visit(dimension, {.name = "dimension",
                     .range = Range::between(1, 3),
                     .values = "1, 2, 3, \"axisymmetric\", \"spherical\", \"plane\"",
-                    .meaning = "of space; a structure needs 3, solids 2 (plane strain) or 3. Or a symmetry that leaves fewer "
-                               "coordinates than the scene is written in"});
+                    .meaning = "number of coordinates, or a symmetry that leaves fewer than the scene is written in"});
   visit(scene.axis, {.name = "axis",
                      .rule = "that about which all is of revolution",
                      .form = Form::axis,
@@ -333,10 +321,9 @@ void describe(Scene& scene, Visit&& visit) {
                          .remedy = "give it in s, e.g. end_time = 1e-4",
                          .meaning = "when the run ends"});
   visit(scene.fluid.numerics.threads, {.name = "threads", .range = Range::between(0, 4096), .meaning = "0: all the machine has"});
-  visit(scene.fluid.gravity,
-        {.name = "gravity",
-         .unit = "m/s^2",
-         .meaning = "acts on fluid, structure, solids and free obstacles; not across a symmetry plane that cuts any of them"});
+  visit(scene.fluid.gravity, {.name = "gravity",
+                              .unit = "m/s^2",
+                              .meaning = "acts on fluid, structure, solids and free obstacles; along symmetry planes only"});
   for (const char* table :
        {"resolution", "symmetry", "surroundings", "scheme", "start", "materials", "bodies", "walls", "structure", "structures",
         "solids", "solid_scheme", "planes", "coupling", "obstacles", "probes", "lines", "output", "comparison"})

@@ -104,8 +104,7 @@ void describe(Lattice& lattice, Visit&& visit) {
                                   "not in 1D"});
   visit(lattice.fit, {.name = "fit",
                       .values = "name of a body or wall",
-                      .meaning = "its extents (its radius, for rings) are cut into whole spacings; rings need it, and something "
-                                 "round"});
+                      .meaning = "its extents (for rings its radius) become whole spacings; rings need it"});
   visit(lattice.origin, {.name = "origin",
                          .unit = "m",
                          .range = Range::position(),
@@ -113,16 +112,13 @@ void describe(Lattice& lattice, Visit&& visit) {
   visit(lattice.rotation, {.name = "rotation",
                            .unit = "deg",
                            .form = Form::turn,
-                           .meaning = "turns a Cartesian lattice without `fit` about `origin`: axis times angle. Bodies with a "
-                                      "spacing of their own and solids keep theirs; walls stay where they are"});
+                           .meaning = "turns a Cartesian lattice without `fit` about `origin`: axis times angle"});
   visit(lattice.jitter, {.name = "jitter",
                          .range = Range::between(0, 0.5),
                          .meaning = "random displacement of the start as a share of dx, always the same one"});
-  visit(lattice.settle,
-        {.name = "settle",
-         .meaning = "particles are moved before the start until uniform pressure leaves them at rest: rings "
-                    "beside their axis, round and unfitted walls, jitter. A lattice that is at rest stays as it is: "
-                    "[equations](../theory/equations.md#settled-starts)"});
+  visit(lattice.settle, {.name = "settle",
+                         .meaning = "move particles before the start until uniform pressure leaves them at rest "
+                                    "([how](../theory/equations.md#settled-starts))"});
 }
 
 /// State of one particle at the start.
@@ -194,8 +190,7 @@ void describe(Body& body, Visit&& visit) {
                    .unit = "kg",
                    .range = Range::positive(),
                    .rule = "from the shape",
-                   .meaning = "of a whole sphere, with what symmetry planes cut off: its radius follows from `density`, or else "
-                              "`rho0`"});
+                   .meaning = "of a whole sphere, also where symmetry planes cut it; gives the radius"});
   visit(body.shape.removed, {.name = "subtract",
                              .values = "list of [shapes](#shapes) and names",
                              .meaning = "what is taken out: shapes, or the shapes of other bodies and of solids by name"});
@@ -210,10 +205,9 @@ void describe(Body& body, Visit&& visit) {
                        .rule = "that of `resolution`",
                        .meaning = "a lattice of its own"});
   visit(body.velocity, {.name = "velocity", .unit = "m/s", .meaning = "at the start"});
-  visit(body.radial_velocity,
-        {.name = "radial_velocity",
-         .unit = "m/s",
-         .meaning = "at the start, away from the middle of the shape (negative: towards it); added to `velocity`"});
+  visit(body.radial_velocity, {.name = "radial_velocity",
+                               .unit = "m/s",
+                               .meaning = "at the start, away from the middle of the shape; added to `velocity`"});
   visit(body.spin, {.name = "spin",
                     .unit = "rad/s",
                     .form = Form::turn,
@@ -226,14 +220,12 @@ void describe(Body& body, Visit&& visit) {
                         .unit = "Pa",
                         .values = "attainable",
                         .meaning = "at the start; gives the density, or with `density` the energy"});
-  visit(body.level,
-        {.name = "level",
-         .unit = "m",
-         .range = Range::position(),
-         .rule = "none: uniform",
-         .form = Form::height,
-         .meaning = "with `gravity`: where the body has `pressure`; above and below it the start is hydrostatic, dp = rho "
-                    "g . dx, at uniform energy"});
+  visit(body.level, {.name = "level",
+                     .unit = "m",
+                     .range = Range::position(),
+                     .rule = "none: uniform",
+                     .form = Form::height,
+                     .meaning = "with `gravity`: where the body has `pressure`; elsewhere the start is hydrostatic"});
   visit(body.density, {.name = "density",
                        .unit = "kg/m^3",
                        .range = Range::positive(),
@@ -299,23 +291,18 @@ void describe(Wall& wall, Visit&& visit) {
                    .needed = true,
                    .remedy = "a box, cylinder, cone or sphere round the fluid",
                    .values = "a [shape](#shapes)",
-                   .meaning = "the inside. Other than a box, cylinder, cone or sphere along the axes it has no faces by name and "
-                              "is \"free_slip\": it becomes an obstacle, a box with that hole"});
-  visit(
-      ByHand{},
-      {.name = "condition",
-       .rule = "\"free_slip\"",
-       .values = "\"free_slip\", \"no_slip\", \"open\", \"radiating\"",
-       .meaning = "of all faces not named in `faces`; \"open\": no wall there; \"radiating\": waves leave "
-                  "([how](../theory/equations.md#radiating-faces)), of boxes, cylinders and spheres, not with scheme \"paper\""});
-  visit(wall.source,
-        {.name = "source",
-         .unit = "m",
-         .range = Range::position(),
-         .rule = "the middle of the only round charge or bubble of gas in the scene; else none",
-         .used = wall.radiates(),
-         .meaning = "of a wall with radiating faces: where the waves that leave come from. None: plane waves, whose angle to "
-                    "the face the water's motion shows"});
+                   .meaning = "the inside; box, cylinder, cone or sphere along the axes have faces by name"});
+  visit(ByHand{}, {.name = "condition",
+                   .rule = "\"free_slip\"",
+                   .values = "\"free_slip\", \"no_slip\", \"open\", \"radiating\"",
+                   .meaning = "of all faces not named in `faces`; \"open\": no wall; \"radiating\": waves leave "
+                              "([how](../theory/equations.md#radiating-faces))"});
+  visit(wall.source, {.name = "source",
+                      .unit = "m",
+                      .range = Range::position(),
+                      .rule = "the middle of the only round charge or bubble of gas in the scene; else none",
+                      .used = wall.radiates(),
+                      .meaning = "of a wall with radiating faces: where the waves come from; none: plane waves"});
   visit(ByHand{}, {.name = "faces", .rule = "{}", .values = "table of face = condition", .meaning = "the faces below"});
 }
 
@@ -325,9 +312,8 @@ struct Symmetry {
 };
 template <class Visit>
 void describe(Symmetry& symmetry, Visit&& visit) {
-  visit(symmetry.axis, {.name = "planes",
-                        .meaning = "mirror planes through the origin across these axes; only x >= 0 (y, z) is "
-                                   "computed. Shapes are given whole"});
+  visit(symmetry.axis,
+        {.name = "planes", .meaning = "mirror planes through the origin across these axes; x >= 0 (y, z) is computed"});
 }
 
 /// Kernel, pair scheme and steps.
@@ -362,20 +348,17 @@ void apply_defaults(Numerics& numerics, int dimension, auto&& given) {
 
 template <class Visit>
 void describe(Numerics& numerics, Visit&& visit) {
-  visit(numerics.scheme,
-        {.name = "name",
-         .meaning = "limited reconstruction and a Riemann flux per pair of particles, plain or with corrected kernel "
-                    "gradients; artificial viscosity, with one coefficient, or one per particle that rises where it "
-                    "is compressed, or with the paper's walls: [equations](../theory/equations.md#3-pair-schemes)"});
+  visit(numerics.scheme, {.name = "name",
+                          .meaning = "how a pair of particles dissipates: a Riemann flux or artificial viscosity "
+                                     "([schemes](../theory/equations.md#3-pair-schemes))"});
   visit(numerics.kernel, {.name = "kernel",
                           .rule = "\"wendland_c2\"; paper \"gaussian\"",
                           .meaning = "smoothing kernel; radius 2h, of the quintic spline and the Gaussian 3h"});
   visit(numerics.precision,
         {.name = "precision",
          .rule = "\"mixed\" in three dimensions, else \"full\"",
-         .meaning = "numbers of the loop over pairs: double, or single on places relative to a few neighbours "
-                    "(state stays double); what it costs in error: [performance](../results/performance.md#mixed-precision). "
-                    "Spacings from 2e-5 m on"});
+         .meaning = "of the loop over pairs: double, or single with a double state "
+                    "([error](../results/performance.md#mixed-precision)); \"mixed\" for spacings from 2e-5 m on"});
   visit(numerics.eta, {.name = "eta",
                        .range = Range::between(0.8, 3),
                        .rule = "1.5; wendland_c4 1.75, wendland_c6 2, cubic_spline 1.325, quintic_spline 1.1, gaussian 1.2",
@@ -386,15 +369,12 @@ void describe(Numerics& numerics, Visit&& visit) {
   visit(numerics.beta, {.name = "beta",
                         .range = Range::between(0, 1000),
                         .rule = "10; monaghan_switch 2",
-                        .meaning = "its quadratic coefficient; \"monaghan_switch\": where alpha is at its bound, elsewhere in "
-                                   "proportion"});
+                        .meaning = "its quadratic coefficient; \"monaghan_switch\": the one that belongs to `alpha`"});
   visit(numerics.alpha_min,
         {.name = "alpha_min", .range = Range::between(0, 100), .meaning = "\"monaghan_switch\": the lower bound, up to `alpha`"});
-  visit(numerics.integrator,
-        {.name = "integrator",
-         .meaning = "one evaluation of the pairs a step, second order in time; or a Runge-Kutta method of third "
-                    "order with three, at about twice the step: [what it "
-                    "gains](../results/performance.md#runge-kutta-instead-of-the-leapfrog)"});
+  visit(numerics.integrator, {.name = "integrator",
+                              .meaning = "second order with one evaluation a step, or third order with three "
+                                         "([comparison](../results/performance.md#runge-kutta-instead-of-the-leapfrog))"});
   visit(numerics.courant, {.name = "courant",
                            .range = Range::above(0, 2),
                            .rule = "0.35; wendland_c6 0.27; ssp_rk3 twice that",
@@ -403,18 +383,15 @@ void describe(Numerics& numerics, Visit&& visit) {
                               .unit = "s",
                               .range = Range::above(0, 1),
                               .meaning = "a fixed step in place of the Courant-limited one"});
+  visit(numerics.local_steps, {.name = "local_steps",
+                               .used = numerics.integrator == Integrator::leapfrog,
+                               .meaning = "bodies with a short stable step take substeps where that saves work "
+                                          "([gain](../results/performance.md#local-steps)); \"leapfrog\" without `fixed_step`"});
   visit(
-      numerics.local_steps,
-      {.name = "local_steps",
-       .used = numerics.integrator == Integrator::leapfrog,
-       .meaning = "may bodies whose stable step is less than half the others' take several substeps in one of theirs, where that "
-                  "saves work? [What it gains](../results/performance.md#local-steps). With \"leapfrog\" and without "
-                  "`fixed_step` only"});
-  visit(numerics.signal, {.name = "signal",
-                          .range = Range::between(0, 0.1),
-                          .meaning = "particles at rest are left out until a signal of this share of the sound speed (or of the "
-                                     "density) comes within reach; 0: never left out. Nobody is left out where a wall moves or a "
-                                     "charge burns"});
+      numerics.signal,
+      {.name = "signal",
+       .range = Range::between(0, 0.1),
+       .meaning = "particles at rest are left out until a signal of this share of the sound speed comes within reach; 0: never"});
   visit(numerics.h_low,
         {.name = "h_low", .range = Range::between(0.1, 1), .meaning = "where h follows density: least h over its start"});
   visit(numerics.h_high, {.name = "h_high", .range = Range::between(1, 20), .meaning = "and the largest"});
@@ -427,13 +404,11 @@ struct Surroundings {
 };
 template <class Visit>
 void describe(Surroundings& surroundings, Visit&& visit) {
-  visit(
-      surroundings.pressure,
-      {.name = "pressure",
-       .unit = "Pa",
-       .range = Range::between(0, 1e9),
-       .meaning = "on the fluid's free surfaces, and on all faces of structures and solids that no fluid wets: the atmosphere's, "
-                  "101325. Their `loads` come on top of it"});
+  visit(surroundings.pressure,
+        {.name = "pressure",
+         .unit = "Pa",
+         .range = Range::between(0, 1e9),
+         .meaning = "on free surfaces of the fluid and on dry faces of structures and solids; the atmosphere's is 101325"});
 }
 
 struct Settings {

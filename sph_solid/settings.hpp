@@ -67,8 +67,7 @@ void describe(Body& solid, Visit&& visit) {
                    .meaning = "see [materials](#materials)"});
   visit(solid.description,
         {.name = "description",
-         .meaning = "whom a particle calls its neighbours: those of the start for ever (no tensile instability, "
-                    "no fragments), or those of the moment (any deformation, and fracture)"});
+         .meaning = "neighbours of a particle are those of the start (no fragments), or those of the moment (fracture)"});
   visit(solid.spacing, {.name = "spacing",
                         .unit = "m",
                         .range = Range::length(),
@@ -84,21 +83,15 @@ void describe(Body& solid, Visit&& visit) {
                    .rule = "none",
                    .values = "a [table](#radial-motion)",
                    .meaning = "at the start, towards or away from a point or an axis; added to `velocity`"});
-  visit(solid.residual_stress,
-        {.name = "residual_stress",
-         .unit = "Pa",
-         .meaning = "S of a stress in equilibrium at the start: S (1 - r^2/R^2) radial, S (1 - 3 r^2/R^2) along "
-                    "the circumference; whole cylinders, in 2D discs"});
-  visit(solid.wet,
-        {.name = "wet",
-         .values = "list of faces",
-         .meaning = "those that water touches, in which it is mirrored; empty: all of them, but for those that lie on other "
-                    "solids, walls and symmetry planes"});
-  visit(ByHand{}, {.name = "supports",
-                   .rule = "[]",
-                   .values = "list of tables",
-                   .meaning = "held faces, as of the [structure](#structure): the row of particles beneath each, half a spacing "
-                              "inside"});
+  visit(solid.residual_stress, {.name = "residual_stress",
+                                .unit = "Pa",
+                                .meaning = "S of a stress in equilibrium at the start; of whole cylinders, in 2D discs"});
+  visit(solid.wet, {.name = "wet",
+                    .values = "list of faces",
+                    .meaning = "those that water touches; empty: all that do not lie on solids, walls or symmetry planes"});
+  visit(
+      ByHand{},
+      {.name = "supports", .rule = "[]", .values = "list of tables", .meaning = "held faces, as of the [structure](#structure)"});
 }
 
 /// Kernel (Wendland's) and steps of solid particles.
@@ -123,10 +116,9 @@ void describe(Numerics& numerics, Visit&& visit) {
                                     .meaning = "total Lagrangian: bulk viscosity on compression, as the structure's"});
   visit(numerics.quadratic_viscosity,
         {.name = "quadratic_viscosity", .range = Range::between(0, 100), .meaning = "and its quadratic term"});
-  visit(numerics.hourglass,
-        {.name = "hourglass",
-         .range = Range::between(0, 10),
-         .meaning = "total Lagrangian: stiffness of motions that no deformation gradient sees, in shear moduli"});
+  visit(numerics.hourglass, {.name = "hourglass",
+                             .range = Range::between(0, 10),
+                             .meaning = "total Lagrangian: stiffness of motions without strain, in shear moduli"});
   visit(numerics.alpha, {.name = "alpha",
                          .range = Range::between(0, 100),
                          .meaning = "updated Lagrangian and contact: linear coefficient of Monaghan's viscosity"});

@@ -261,7 +261,7 @@ void compare_runs(const CompareOptions& options) {
     text += "\nbeside the reference; after each source's value every run's difference from it\n" +
             judge::format_comparison(metrics, *reference.table);
   text += "\nPercentages: difference from " + labels.front() +
-          (reference.history.empty() ? "" : "; in brackets from the reference") + ". Definitions: docs/reference/outputs.md\n";
+          (reference.history.empty() ? "" : "; in brackets from the reference") + ". Definitions: undex help outputs\n";
   for (const std::string& note : notes) text += "note: " + note + "\n";
 
   blocks.push_back(norms);
