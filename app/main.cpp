@@ -178,7 +178,8 @@ int dispatch(int argc, char** argv) {
       ->type_name("RUN");
   report->add_option("-o,--output", report_arguments.output, "the file; default: report.html in the folder, of several runs here")
       ->type_name("FILE");
-  report->footer("Needs python3-numpy, python3-h5py, python3-matplotlib and libjs-dygraphs. What it shows: undex help report");
+  report->footer(
+      "Needs python3-numpy, python3-h5py, python3-matplotlib and libjs-dygraphs. What it shows: docs/reference/report.md");
 
   PlotArguments plot_arguments;
   CLI::App* plot = program.add_subcommand("plot", "draw pictures/*.png of a run, a study or a comparison into its folder");
