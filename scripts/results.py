@@ -14,6 +14,7 @@ PAGES = ("README.md", "docs/**/*.md", "cases/*/README.md")
 FENCE = re.compile(r"^(```|~~~).*?^\1", re.M | re.S)
 MARK = re.compile(r"<!-- (table|value) (\S+) -->(.*?)<!-- end -->", re.S)
 OPENING = re.compile(r"<!-- (?:table|value) \S+ -->")
+CARRIED_OVER = "*Carried over from an earlier measurement.*"
 BOOKKEEPING = ("run", "curve", "problem", "message", "cpu_time_largest_s", "wall_time_s", "timings", "threads", "time_s", "program",
                "particle_updates", "neighbour_interactions", "solver_memory_bytes", "bytes_per_particle", "peak_memory_bytes")
 
@@ -36,9 +37,12 @@ class Results:
         self.read = functools.cache(self.read)
         self.figures = self.read_figures()
 
+    def path(self, name):
+        return self.root / (name if "/" in name else f"docs/results/{name}")
+
     def read(self, name):
         """Rows of a CSV as dictionaries. A bare name lies in docs/results; the lines that begin with # are provenance."""
-        path = self.root / (name if "/" in name else f"docs/results/{name}")
+        path = self.path(name)
         try:
             lines = path.read_text().splitlines()
         except OSError as error:
@@ -49,6 +53,11 @@ class Results:
         if any(None in row or None in row.values() for row in rows):
             raise Mistake(f"{path}: a row has more or fewer cells than the header")
         return rows
+
+    def carried_over(self, what):
+        """Whether the provenance of a file that the table shows says so."""
+        files = {entry["file"] for entry in [what, *what.get("runs", [])] if "file" in entry}
+        return any("carried over" in self.path(file).read_text().partition("\n")[0] for file in files)
 
     def read_figures(self):
         """Single figures by name, from the files that the description calls files of figures."""
@@ -255,7 +264,8 @@ def table(results, what):
     head, *body = KINDS[kind](results, what)
     lines = [head, ["---"] * len(head), *body]
     rows = ("|" + "".join(f" {cell} |" if cell else " |" for cell in line) for line in lines)
-    return "\n\n" + "\n".join(rows) + "\n\n"  # the blank lines make it a table in every kind of Markdown
+    under = f"{CARRIED_OVER} " if results.carried_over(what) else ""
+    return "\n\n" + "\n".join(rows) + "\n\n" + under  # the blank lines make it a table in every kind of Markdown
 
 
 def value(results, what):

@@ -97,26 +97,17 @@ def untraced(root, declared):
 
 def audit(root):
     """Prints what is not traced; returns the number of mistakes."""
-    description = results.Results(root).description
-    declared = [Declared(entry) for entry in description.get("declared", [])]
-    owed = {entry["page"]: entry["count"] for entry in description.get("owed", [])}
-    bad, counts = 0, {}
+    declared = [Declared(entry) for entry in results.Results(root).description.get("declared", [])]
+    bad = 0
     for page, line, words in untraced(root, declared):
-        counts[page] = counts.get(page, 0) + 1
-        if page not in owed:
-            print(f"{page}:{line}: {words}: no file of results stands behind it", file=sys.stderr)
-            bad += 1
+        print(f"{page}:{line}: {words}: no file of results stands behind it", file=sys.stderr)
+        bad += 1
     for place in declared:
         if not place.used:
             print(f"{results.DESCRIPTION}: nothing is at the declared place {place.entry}", file=sys.stderr)
             bad += 1
-    for page, count in owed.items():
-        if counts.get(page, 0) != count:
-            print(f"{page}: {counts.get(page, 0)} figures have no file of results; {results.DESCRIPTION} owes {count}", file=sys.stderr)
-            bad += counts.get(page, 0) > count
     marked = sum(len(results.marks(path.read_text())) for path in results.pages(root))
-    print(f"{marked} marked places; {sum(place.used for place in declared)} places declared as no results by {len(declared)} entries; "
-          f"{sum(owed.values())} figures owed by {len(owed)} pages")
+    print(f"{marked} marked places; {sum(place.used for place in declared)} places declared as no results by {len(declared)} entries")
     return bad
 
 
