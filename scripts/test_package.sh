@@ -36,7 +36,7 @@ trap clean EXIT
 
 begun=$SECONDS
 stage() { printf '== %s (%d s)\n' "$1" $((SECONDS - begun)); }
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive OMP_NUM_THREADS=1 "$@"; }
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp DEBIAN_FRONTEND=noninteractive OMP_NUM_THREADS=1 "$@"; }
 apt_install() { inside apt-get -q -y install --no-install-recommends "$@" &>>"$work/apt.log" || { tail -n 20 "$work/apt.log"; exit 1; }; }
 size() { du -sm --one-file-system "$root" | cut -f 1; }
 
@@ -61,12 +61,12 @@ if grep -o '[^ ]*/cases/[^ ]*' "$work/list" | grep -v '^/usr/share/undex/cases/'
 printf '   %d scenes\n' "$(grep -c '/usr/share/undex/cases/' "$work/list")"
 
 stage "a coarse run"
-inside undex run al_tube_fem/experiment.toml -P 'resolution.spacing=2 mm' -P 'end_time=60 us' -q -o /root/tube
-grep -q '"status": "done"' "$root/root/tube/summary.json"
+inside undex run al_tube_fem/experiment.toml -P 'resolution.spacing=2 mm' -P 'end_time=60 us' -q -o /tmp/tube
+grep -q '"status": "done"' "$root/tmp/tube/summary.json"
 if inside undex --help | grep -q '^ *report '; then
   stage "undex report"
-  inside undex report /root/tube -o /root/tube.html
-  grep -qi '</html>' "$root/root/tube.html"
+  inside undex report /tmp/tube -o /tmp/tube.html
+  grep -qi '</html>' "$root/tmp/tube.html"
 fi
 
 if [[ $libraries == yes ]]; then
@@ -74,10 +74,10 @@ if [[ $libraries == yes ]]; then
   developer=("$packages"/libundex-dev_*.deb)
   apt_install "/tmp/${developer[0]##*/}" g++ cmake ninja-build
   printf '   with compiler and headers %d MB on disk\n' $(($(size) - bare))
-  cp -r "$source_folder/tests/packages/consumer" "$root/root/consumer"
-  inside cmake -G Ninja -S /root/consumer -B /root/built >"$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
-  inside cmake --build /root/built | tail -n 1
-  inside /root/built/laws
-  inside /root/built/scene /root/consumer/plate.toml /root/plate
+  cp -r "$source_folder/tests/packages/consumer" "$root/tmp/consumer"
+  inside cmake -G Ninja -S /tmp/consumer -B /tmp/built >"$work/cmake.log" || { cat "$work/cmake.log"; exit 1; }
+  inside cmake --build /tmp/built | tail -n 1
+  inside /tmp/built/laws
+  inside /tmp/built/scene /tmp/consumer/plate.toml /tmp/plate
 fi
 stage "done"

@@ -58,11 +58,13 @@ def install(build, prefix):
     shutil.rmtree(first, ignore_errors=True)
     output_of(["cmake", "--install", build, "--prefix", first], build)
     first.rename(prefix)
-    for name in ["bin/undex", "lib/undex/libundex_meshes.so", "lib/cmake/undex/undexConfig.cmake", "include/undex/core/vector.hpp",
+    for name in ["bin/undex", "lib/undex/libundex_meshes.so", "lib/cmake/undex/undexConfig.cmake",
                  "share/undex/cases/al_tube_fem/case.toml", "share/undex/cases/al_tube_fem/reference/displacement.csv",
                  "share/undex/cases/free_field/study.toml", "share/undex/docs/tutorial.md", "share/doc/undex/README.md",
                  "share/doc/undex/LICENSE", "share/doc/undex/CHANGELOG.md"]:
         require((prefix / name).is_file(), f"{name} is not installed")
+    for path in (SOURCE / "core").glob("*.hpp"):
+        require((prefix / "include/undex/core" / path.name).is_file(), f"core/{path.name} is not installed")
     for path in (SOURCE / "cases").rglob("*.toml"):
         name = path.relative_to(SOURCE)
         require("out" in name.parts or (prefix / "share/undex" / name).is_file(), f"{name} is not installed")
