@@ -10,6 +10,9 @@
 #include <new>
 
 #include "app/commands.hpp"
+#include "app/help.hpp"
+#include "app/new_scene.hpp"
+#include "app/shell_words.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
 #include "core/last_words.hpp"
@@ -39,6 +42,11 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
       ->check(CLI::Range(0, 4096));
 }
 
+int print_text(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return exit_done;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App program("Close-in underwater explosions: SPH water coupled to a deforming structure", "undex");
   program.require_subcommand(1);
@@ -53,6 +61,11 @@ int dispatch(int argc, char** argv) {
          "-v,--verbose", [&] { run_arguments.verbosity = 1; }, "print every step")
       ->excludes(quiet);
   run->add_flag("--force", run_arguments.force, "write into an output folder that is not empty");
+  run->footer(
+      "Examples:\n"
+      "  undex run cases/rigid_cylinder\n"
+      "  undex run my_tube -o out/fine -P resolution.spacing=\"0.5 mm\"\n"
+      "  undex run my_tube --tend \"60 us\" -j 4");
 
   ResumeArguments resume_arguments;
   CLI::App* resume =
@@ -77,14 +90,15 @@ int dispatch(int argc, char** argv) {
           "-v,--verbose", [&] { resume_arguments.verbosity = 1; }, "print every step")
       ->excludes(quiet_resume);
   resume->footer(
-      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene). "
-      "docs/reference/outputs.md");
+      "Exit code 4: the checkpoints do not fit (damaged, another program or machine, a changed scene): undex help outputs.\n"
+      "Example:\n  undex resume out/fine --tend \"200 us\"");
 
   CheckArguments check_arguments;
   CLI::App* check = program.add_subcommand(
       "check", "read a scene and say what its run would be; write nothing but a picture that is asked for");
   add_scene_arguments(*check, check_arguments);
   check->add_option("--picture", check_arguments.picture, "draw the scene at its start in this .svg")->type_name("FILE");
+  check->footer("Example:\n  undex check my_tube --picture scene.svg -P resolution.spacing=\"2 mm\"");
 
   judge::RejudgeOptions judge_options;
   CLI::App* judgement = program.add_subcommand(
@@ -94,7 +108,7 @@ int dispatch(int argc, char** argv) {
                         "CSV in place of the scene's reference: a table of metrics, or a reference history");
   judgement->add_flag("-q,--quiet", judge_options.quiet, "print nothing but errors");
   judgement->footer(
-      "Rewrites the metrics in summary.json (and profile.csv); nothing else changes. Definitions: docs/reference/outputs.md");
+      "Rewrites the metrics in summary.json (and profile.csv); nothing else changes. Definitions: undex help outputs");
 
   study::CompareOptions compare_options;
   CLI::App* comparison = program.add_subcommand(
@@ -116,7 +130,7 @@ int dispatch(int argc, char** argv) {
   comparison->add_flag("--force", compare_options.force, "write into an output folder that is not empty");
   comparison->footer(
       "Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
-      "how: docs/reference/outputs.md");
+      "how: undex help outputs");
 
   study::StudyOptions study_options;
   CLI::App* study_command = program.add_subcommand(
@@ -153,7 +167,7 @@ int dispatch(int argc, char** argv) {
   study_command->add_flag("-q,--quiet", study_options.quiet, "print nothing but errors");
   study_command->footer(
       "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, of which undex report DIR makes a page. "
-      "The study file: docs/reference/studies.md");
+      "The study file: undex help studies");
 
   MaterialsArguments materials_arguments;
   CLI::App* materials = program.add_subcommand(
@@ -169,6 +183,21 @@ int dispatch(int argc, char** argv) {
   CLI::App* keys =
       program.add_subcommand("keys", "write the tables of a scene's keys into a page, docs/reference/scene-file.md")->group("");
   keys->add_option("page", page, "the page; its marks say which table goes where")->required();
+  std::string topic;
+  CLI::App* help = program.add_subcommand("help", "what the documentation says of a command, a page, or a key of a scene");
+  help->add_option("topic", topic, "such as run, tutorial, scheme or scheme.kernel; none: the topics")->type_name("TOPIC");
+  help->footer("Examples:\n  undex help\n  undex help plate\n  undex help resolution.spacing");
+  std::string template_name;
+  std::filesystem::path new_folder;
+  CLI::App* new_command = program.add_subcommand("new", "copy a scene that works into a folder, to begin from");
+  new_command->add_option("template", template_name, "such as plate or rigid_cylinder; none: which there are")->type_name("NAME");
+  new_command->add_option("folder", new_folder, "the new folder; default: the template's name")->type_name("FOLDER");
+  new_command->footer("Example:\n  undex new tube my_tube && undex check my_tube");
+  std::string shell;
+  CLI::App* completion = program.add_subcommand("completion", "print the script with which bash, zsh or fish completes undex");
+  completion->add_option("shell", shell, "bash, zsh or fish")->required()->type_name("SHELL");
+  completion->footer("Example:\n  source <(undex completion bash)");
+  CLI::App* manual = program.add_subcommand("manual", "print the man page, in troff")->group("");
   CLI::App* list = program.add_subcommand("list", "the scenes shipped");
   CLI::App* version = program.add_subcommand("version", "version, compiler, instruction set");
   bool json = false;
@@ -198,6 +227,10 @@ int dispatch(int argc, char** argv) {
   if (*materials) return print_materials(materials_arguments);
   if (*keys) return write_keys(page);
   if (*list) return list_scenes();
+  if (*help) return print_help(program, topic);
+  if (*new_command) return new_scene(template_name, new_folder);
+  if (*completion) return print_text(completion_script(program, shell));
+  if (*manual) return print_text(man_page(program, version_number()));
   if (*version) return print_version(json);
   return exit_usage;
 }

@@ -18,6 +18,8 @@ std::string build_type() { return *UNDEX_BUILD_TYPE ? UNDEX_BUILD_TYPE : "none";
 
 }  // namespace
 
+std::string version_number() { return UNDEX_VERSION; }
+
 std::string version_line() {
   const std::string git = UNDEX_GIT;
   return std::string("undex ") + UNDEX_VERSION + (git.empty() ? "" : " (" + git + ")") + ", " + compiler + ", " + build_type() +

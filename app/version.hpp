@@ -5,6 +5,8 @@
 
 namespace undex::app {
 
+/// "0.2.0".
+std::string version_number();
 /// One line: version, commit where known, compiler, build type, instruction set of the pair loops.
 std::string version_line();
 /// The same as a JSON object.

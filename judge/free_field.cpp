@@ -18,7 +18,7 @@ namespace {
 using output::NamedNumbers;
 using output::Series;
 
-constexpr int reference_cells = 400;  // in the charge; cases/free_field/README.md shows how converged that is
+constexpr int reference_cells = 400;  // in the charge; docs/results/free_field.md shows how converged that is
 
 constexpr double most_samples = 1e5;
 constexpr double nearest_fit = 4, farthest_fit = 20;  // of the pressure behind a front, in times of smearing

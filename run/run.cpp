@@ -55,7 +55,7 @@ void expect_balance(const EnergyBalance& energy, const Simulation& simulation, b
   char text[500];
   std::snprintf(
       text, sizeof text,
-      "time %.6g s: the energy balance is off by %.0f %% (docs/reference/outputs.md, energy.csv)%s; a smaller scheme.courant (or "
+      "time %.6g s: the energy balance is off by %.0f %% (undex help outputs, energy.csv)%s; a smaller scheme.courant (or "
       "scheme.fixed_step, structure.courant, solid_scheme.courant) may hold it",
       simulation.time(), 100.0 * energy.error(), simulation.fastest_particle().c_str());
   throw NumericalStop(text);

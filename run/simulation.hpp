@@ -54,7 +54,8 @@ struct StructureAccount {
 
 class Simulation {
  public:
-  /// An axisymmetric scene is computed in its meridian. `stages` is told what is built. Throws SceneError where a solver refuses its part of the scene.
+  /// An axisymmetric scene is computed in its meridian. `stages` is told what is built. Throws SceneError where a
+  /// solver refuses its part of the scene.
   explicit Simulation(const scene::Scene& scene, Stages* stages = nullptr);
 
   double time() const;

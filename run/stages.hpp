@@ -13,7 +13,8 @@ class Stages {
   explicit Stages(bool quiet = true) : quiet_(quiet) {}
   /// A stage begins: a word or two.
   void begin(const std::string& name);
-  /// Says how far it has come: at once on a terminal, else every ten seconds. `words` gives the line, and is asked only when one is due.
+  /// Says how far it has come: at once on a terminal, else every ten seconds. `words` gives the line, and is
+  /// asked only when one is due.
   template <class Words>
   void news(const Words& words) {
     if (due()) say(words());

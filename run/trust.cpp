@@ -157,12 +157,15 @@ std::vector<TrustRecord> trust_of(const scene::Scene& given, const output::RunRe
 }
 
 std::string trust_text(const std::vector<TrustRecord>& matters) {
-  std::string text = "\n" + output::inked("Can this run be trusted?", output::Ink::bold) + "\n";
+  std::string text = "\n";
+  text += output::inked("Can this run be trusted?", output::Ink::bold);
+  text += "\n";
   Trust worst = Trust::good;
   for (const TrustRecord& matter : matters) {
     worst = std::max(worst, matter.level);
-    text += "  " + (matter.about == "known limit" ? output::inked("-   ", output::Ink::dim) : mark(matter.level)) + "  " +
-            output::padded_right(matter.about, 16) + "  " + matter.text + "\n";
+    text += "  ";
+    text += matter.about == "known limit" ? output::inked("-   ", output::Ink::dim) : mark(matter.level);
+    text += "  " + output::padded_right(matter.about, 16) + "  " + matter.text + "\n";
   }
   switch (worst) {
     case Trust::good: text += "Yes: everything that the run can check of itself is as it should be. "; break;

@@ -128,6 +128,16 @@ const char* quantities_in_words() {
   return words.c_str();
 }
 
+std::string key_table(const std::string& name) { return name == "library" ? "" : text_for(name, false); }
+
+std::vector<std::string> key_table_names() {
+  std::vector<std::string> names;
+  for_each_table([&](const std::string& each, const char*, const auto& record, const char*) {
+    if (!table_of(record).empty()) names.push_back(each.empty() ? "top" : each);
+  });
+  return names;
+}
+
 std::string with_key_tables(const std::string& page, const std::string& file) {
   static const std::string open = "<!-- table", close = " -->\n", end = "<!-- end -->";
   std::string text;

@@ -56,7 +56,10 @@ watch_build() {
 build_preset() {
   local log
   log=$(mktemp)
-  if ! cmake --preset "$1" >"$log" 2>&1; then
+  # From nothing, modules that compute nothing are compiled in batches. A build that is there keeps what it has.
+  local batches=()
+  [[ $1 == program || -e build/$1/CMakeCache.txt ]] || batches=(-DUNDEX_UNITY=cold)
+  if ! cmake --preset "$1" "${batches[@]}" >"$log" 2>&1; then
     cat "$log"
     rm -f "$log"
     echo "configuring the preset '$1' failed: cmake's own message stands above" >&2

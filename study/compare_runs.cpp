@@ -261,7 +261,7 @@ void compare_runs(const CompareOptions& options) {
     text += "\nbeside the reference; after each source's value every run's difference from it\n" +
             judge::format_comparison(metrics, *reference.table);
   text += "\nPercentages: difference from " + labels.front() +
-          (reference.history.empty() ? "" : "; in brackets from the reference") + ". Definitions: docs/reference/outputs.md\n";
+          (reference.history.empty() ? "" : "; in brackets from the reference") + ". Definitions: undex help outputs\n";
   for (const std::string& note : notes) text += "note: " + note + "\n";
 
   blocks.push_back(norms);
@@ -271,7 +271,7 @@ void compare_runs(const CompareOptions& options) {
   output::write_text_atomically(options.output / "comparison.csv",
                                 csv_header(labels) + settings_csv(differing) + blocks_csv(blocks));
   output::write_text_atomically(options.output / "curves.csv", curves_csv(all, labels, reference.table));
-  std::printf("%s%s and curves.csv are written. Pictures: /usr/bin/python3 scripts/plot.py --compare %s\n", text.c_str(),
+  std::printf("%s%s and curves.csv are written. Pictures: undex plot %s\n", text.c_str(),
               (options.output / "comparison.csv").c_str(), options.output.c_str());
 }
 

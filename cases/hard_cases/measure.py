@@ -1,18 +1,23 @@
 #!/usr/bin/python3
 """What the runs of this folder's scenes came to, against their criteria.
 
-    measure.py PROGRAM OUT [SCENE ...]      runs the scenes (default: all) with the default scheme and with the paper's into
+    measure.py PROGRAM OUT [SCENE ...] [--csv FOLDER]
+                                            runs the scenes (default: all) with the default scheme and with the paper's into
                                             OUT/<scene>_r and OUT/<scene>_m, unless they are there, and prints a line for each
                                             (about an axis monaghan stands in for the paper's, which has no rings)
-                                            criterion; OUT "-" is a temporary folder; SCENE:default or SCENE:paper is one scheme alone
+                                            criterion; OUT "-" is a temporary folder; SCENE:default or SCENE:paper is one scheme alone;
+                                            into FOLDER go hard_cases.csv, a row a criterion, and hard_cases_scenes.csv
 Exit code 1 where a criterion is missed. Needs NumPy and h5py.
 """
 import csv
+import datetime
 import json
 import pathlib
+import platform
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 try:
     import h5py
@@ -213,7 +218,7 @@ def against(run, other, limit, what):
     rho_c_u = 1000 * 1500 * 200
     dp = np.abs(f["pressure"][a] - g["pressure"][b]).max() / rho_c_u
     dx = np.abs(f["x"][a] - g["x"][b]).max() / 0.002
-    return [(f"{what}: largest difference of pressure over rho c u below {limit:g}", dp < limit, f"{dp:.1e}"),
+    return [(f"{what}: pressures within {limit:g} rho c u", dp < limit, f"{dp:.1e}"),
             ("of places, in spacings", dx < limit, f"{dx:.1e}")]
 
 
@@ -256,15 +261,50 @@ CASES = {
 
 
 def main():
-    if sys.argv[2] != "-":
-        sys.exit(measure(sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]))
+    arguments = sys.argv[1:]
+    tables = None
+    if "--csv" in arguments:
+        at = arguments.index("--csv")
+        tables = pathlib.Path(arguments[at + 1])
+        del arguments[at:at + 2]
+    program, out, *scenes = arguments
+    if out != "-":
+        sys.exit(measure(program, pathlib.Path(out), scenes, tables))
     with tempfile.TemporaryDirectory(prefix="undex_hard_cases_") as folder:
-        sys.exit(measure(sys.argv[1], pathlib.Path(folder), sys.argv[3:]))
+        sys.exit(measure(program, pathlib.Path(folder), scenes, tables))
 
 
-def measure(program, out, scenes):
+def write_tables(folder, program, found):
+    """A row a criterion with what both schemes came to, and a row a scene with how many criteria they hold."""
+    version = subprocess.run([program, "version"], capture_output=True, text=True, check=True).stdout.split(" (")[0]
+    origin = f"# cases/hard_cases/measure.py PROGRAM OUT --csv docs/results; {version}; {platform.processor() or platform.machine()}; " \
+             f"{datetime.date.today()}\n"
+    with open(folder / "hard_cases.csv", "w", newline="") as criteria, open(folder / "hard_cases_scenes.csv", "w", newline="") as counts:
+        criteria.write(origin)
+        counts.write(origin)
+        row, count = csv.writer(criteria, lineterminator="\n"), csv.writer(counts, lineterminator="\n")
+        row.writerow(["scene", "criterion", "default", "paper or monaghan"])
+        count.writerow(["scene", "what", "default", "paper", "monaghan"])
+        for scene, schemes in found.items():
+            criteria_of = dict.fromkeys(what for checks in schemes.values() for what, _, _ in checks)
+            for what in criteria_of:
+                row.writerow([scene, what, *(came_to(schemes.get(scheme, []), what) for scheme in schemes)])
+            held = {scheme: f"{sum(bool(passed) for _, passed, _ in checks)} of {len(criteria_of)}" for scheme, checks in schemes.items()}
+            title = tomllib.loads((HERE / f"{scene}.toml").read_text())["title"].partition(":")[0]
+            count.writerow([f"`{scene}`", title, held["default"], held.get("paper", ""), held.get("monaghan", "")])
+
+
+def came_to(checks, what):
+    """A criterion's value, and whether it is missed; nothing where the run did not come so far."""
+    for name, passed, value in checks:
+        if name == what:
+            return (value or "yes") if passed else f"misses: {value}" if value else "misses"
+    return ""
+
+
+def measure(program, out, scenes, tables=None):
     """1 where a criterion is missed, else 0."""
-    failed = False
+    failed, found = False, {}
     for scene, _, scheme in (name.partition(":") for name in scenes or CASES):
         other = "monaghan" if scene.startswith("axis_") else "paper"
         for suffix, changes in (("r", []), ("m", MONAGHAN if other == "monaghan" else PAPER)):
@@ -285,9 +325,12 @@ def measure(program, out, scenes):
                 checks += CASES[scene](run, get)
             acted = {k: v for k, v in s["clamps"].items() if v}
             print(f"{scene} {'default' if suffix == 'r' else other}: {s['steps']} steps, {s['cpu_time_s']:.0f} s CPU, bounds {acted}")
+            found.setdefault(scene, {})["default" if suffix == "r" else other] = checks
             for what, passed, value in checks:
                 failed = failed or not passed
                 print(f"    {'pass' if passed else 'FAIL'}  {what}: {value}")
+    if tables:
+        write_tables(tables, program, found)
     return int(failed)
 
 

@@ -1391,6 +1391,79 @@ resolution.spacing = 0.0002
         self.ends(runs.call(*plot, self.here), 2, "study.json: missing; give the folder that undex study wrote")
 
 
+class Help(Case):
+    """undex help, undex new, and what shells and man are told."""
+
+    def test_topics(self):
+        topics = self.undex("help")
+        self.ends(topics, 0)
+        names = re.findall(r"(?m)^  ([a-z-]+) +\S", topics.stdout)
+        for name in ("run", "study", "help", "tutorial", "plate", "outputs"):
+            self.assertIn(name, names)
+        for name in names:
+            finished = self.undex("help", name)
+            self.ends(finished, 0)
+            self.assertGreater(len(finished.stdout), 50, name)
+
+    def test_tables_and_keys(self):
+        finished = self.undex("help", "resolution")
+        self.ends(finished, 0)
+        self.assertIn("spacing", finished.stdout)
+        finished = self.undex("help", "scheme.kernel")
+        self.ends(finished, 0)
+        self.assertRegex(finished.stdout, r"(?m)^  kernel   default .*wendland_c2")
+        self.assertNotIn("courant", finished.stdout.split("\n")[2])
+        self.ends(self.undex("help", "end_time"), 0)
+        for markdown in ("](", "`", "<!--"):
+            self.assertNotIn(markdown, self.undex("help", "scheme").stdout)
+
+    def test_no_topic(self):
+        self.ends(self.undex("help", "scheem"), 2, "no help on 'scheem'; did you mean 'scheme'")
+        self.ends(self.undex("help", "../secret"), 2, "no help on")
+
+    def test_new(self):
+        """What it copies runs where it lies, whatever it was taken from."""
+        listed = self.undex("new")
+        self.ends(listed, 0)
+        names = re.findall(r"(?m)^  (\S+) +\S", listed.stdout)
+        self.assertGreater(len(names), 30)
+        for name in ("plate", "tube", "petn_slab", "taylor_bar_sph", "al_tube_sph"):
+            self.assertIn(name, names)
+            self.ends(self.undex("new", name, f"mine/{name}"), 0)
+            self.ends(self.undex("check", f"mine/{name}"), 0)
+
+    def test_new_spoils_nothing(self):
+        kept = self.scene("mine")
+        self.ends(self.undex("new", "plate", "."), 2, "is not empty")
+        self.assertEqual(kept.read_text(), "mine")
+        self.ends(self.undex("new", "plaet", "other"), 2, "no template 'plaet'; did you mean 'plate'")
+        self.assertFalse((self.here / "other").exists())
+
+    def test_completion(self):
+        script = self.undex("completion", "bash")
+        self.ends(script, 0)
+        (self.here / "undex.bash").write_text(script.stdout)
+        for words, answers in ((["undex", "stu"], ["study"]), (["undex", "study", "--sh"], ["--shard"]),
+                               (["undex", "run", "--fo"], ["--force"])):
+            finished = subprocess.run(["bash", "-c", "source ./undex.bash; COMP_WORDS=(" + " ".join(words) + "); COMP_CWORD=" +
+                                       str(len(words) - 1) + "; _undex; echo ${COMPREPLY[@]}"], cwd=self.here, capture_output=True, text=True)
+            self.assertEqual(finished.stdout.split(), answers, finished.stderr)
+        for shell in ("zsh", "fish"):
+            self.ends(self.undex("completion", shell), 0)
+        self.ends(self.undex("completion", "csh"), 2, "no completion for the shell 'csh'")
+
+    def test_manual(self):
+        finished = self.undex("manual")
+        self.ends(finished, 0)
+        for command in ("run", "resume", "check", "judge", "compare", "study", "materials", "help", "new"):
+            self.assertIn(f".SS undex {command}", finished.stdout)
+        self.assertIn(".B \\-\\-output \\-o", finished.stdout)
+
+    def test_examples(self):
+        for command in ("run", "resume", "check", "help", "new", "completion"):
+            self.assertIn("Example", self.undex(command, "--help").stdout)
+
+
 class Telling(Case):
     """Commands that only say something."""
 
@@ -1518,7 +1591,7 @@ class Telling(Case):
         finally:
             os.close(ours)
             os.close(theirs)
-        self.assertRegex(shown.decode(), r"\r\x1b\[K\[#*\.*\] +\d+ %  .* left  energy .*/s  step \d+ at .*s  dt .*s by ")
+        self.assertRegex(shown.decode(), r"\r\x1b\[K\[#*\.*\] +\d+ %  .* left  energy .*/s  step [\d,]+ at .*s  dt .*s by ")
 
 
 def names():

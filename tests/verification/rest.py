@@ -2,7 +2,7 @@
 """Water at rest at 0.1 MPa stays at rest for a millisecond, in every geometry.
 
     rest.py PROGRAM CASES_FOLDER NAME      runs one scene; exit code 1 and one line per finding
-    rest.py PROGRAM CASES_FOLDER --table   runs all of them and prints the table of docs/results/accuracy.md
+    rest.py PROGRAM CASES_FOLDER --table   runs all of them and prints the table of docs/results/walls.md
     rest.py --names                        the scenes that are tests: those that take seconds
 
 0.1 MPa is 4e-5 of rho c^2: what the pairs leave of uniform pressure is seen here before anything else. Needs NumPy and h5py.

@@ -167,7 +167,7 @@ TEST(FittedFront, WaitsForTheBurnAndIsSharp) {
   };
   const auto fine = solve(60), finest = solve(120);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(fine[k] / finest[k], 1.0, 0.01) << k;
-  // As many times finer cells have it of captured fronts (cases/free_field/README.md).
+  // As many times finer cells have it of captured fronts (docs/results/free_field.md).
   EXPECT_NEAR(finest[0], 2242e6, 0.01 * 2242e6);
   EXPECT_NEAR(finest[1], 565e6, 0.01 * 565e6);
 }
