@@ -85,6 +85,10 @@ def program(prefix, version):
         for path in listed:
             require(Path(path).is_relative_to(prefix), f"undex list shows {path}, which is not below {prefix}")
 
+        for template in ("tube", "rigid_cylinder"):  # of a page, of a case
+            output_of([undex, "new", template, template], folder, {})
+            output_of([undex, "check", template], folder, {})
+
         run = [undex, "run", prefix / "share/undex/cases" / SCENE[0], *SCENE[1:], "-j", "1"]
         output_of([*run, "-o", "tube"], folder, {})
         summary = json.loads((Path(folder) / "tube/summary.json").read_text())
