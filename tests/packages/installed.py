@@ -85,14 +85,18 @@ def program(prefix, version):
         for path in listed:
             require(Path(path).is_relative_to(prefix), f"undex list shows {path}, which is not below {prefix}")
 
-        for template in ("tube", "rigid_cylinder"):  # of a page, of a case
-            output_of([undex, "new", template, template], folder, {})
-            output_of([undex, "check", template], folder, {})
+        output_of([undex, "new", "tube", "of_page"], folder, {})
+        output_of([undex, "check", "of_page"], folder, {})
+        output_of([undex, "new", "rigid_cylinder", "of_case"], folder, {})
+        require((Path(folder) / "of_case/reference/metrics.csv").is_file(), "undex new rigid_cylinder copies no reference")
 
         run = [undex, "run", prefix / "share/undex/cases" / SCENE[0], *SCENE[1:], "-j", "1"]
         output_of([*run, "-o", "tube"], folder, {})
         summary = json.loads((Path(folder) / "tube/summary.json").read_text())
         require(summary["status"] == "done" and summary["metrics"], f"the tube's summary.json: {summary}")
+        if (SOURCE / "post").is_dir():
+            output_of([undex, "report", "tube", "-o", "tube.html"], folder, {})
+            require("</html>" in (Path(folder) / "tube.html").read_text(encoding="utf-8"), "the report has no end")
 
         # The library of meshes is the installed one: without it there is no mesh.
         library = prefix / "lib/undex/libundex_meshes.so"
