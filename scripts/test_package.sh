@@ -66,7 +66,7 @@ if grep -o '[^ ]*/cases/[^ ]*' "$work/list" | grep -v '^/usr/share/undex/cases/'
 printf '   %d scenes\n' "$(grep -c '/usr/share/undex/cases/' "$work/list")"
 
 stage "a coarse run"
-inside undex run al_tube_fem/experiment.toml -P 'resolution.spacing=2 mm' -P 'end_time=60 us' -q -o /tmp/tube
+inside undex run /usr/share/undex/cases/al_tube_fem/experiment.toml -P 'resolution.spacing=2 mm' -P 'end_time=60 us' -q -o /tmp/tube
 grep -q '"status": "done"' "$root/tmp/tube/summary.json"
 if inside undex --help | grep -q '^ *report '; then
   stage "undex report"
