@@ -12,6 +12,7 @@
 #include "app/commands.hpp"
 #include "app/help.hpp"
 #include "app/new_scene.hpp"
+#include "app/report.hpp"
 #include "app/shell_words.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
@@ -129,7 +130,7 @@ int dispatch(int argc, char** argv) {
   comparison->add_option("-o,--output", compare_options.output, "output folder; default: out/compare");
   comparison->add_flag("--force", compare_options.force, "write into an output folder that is not empty");
   comparison->footer(
-      "Writes comparison.csv (the table) and curves.csv, which scripts/plot.py --compare DIR draws. What is compared, and "
+      "Writes comparison.csv (the table) and curves.csv, which undex plot DIR draws. What is compared, and "
       "how: undex help outputs");
 
   study::StudyOptions study_options;
@@ -168,6 +169,25 @@ int dispatch(int argc, char** argv) {
   study_command->footer(
       "Writes study.csv (a row a run), order.csv (observed orders) and a folder a run, of which undex report DIR makes a page. "
       "The study file: undex help studies");
+
+  ReportArguments report_arguments;
+  CLI::App* report =
+      program.add_subcommand("report", "write one HTML file about a run, about several beside each other, or about a study");
+  report->add_option("folders", report_arguments.folders, "output folders of runs, or of one study")
+      ->required()
+      ->type_name("RUN");
+  report->add_option("-o,--output", report_arguments.output, "the file; default: report.html in the folder, of several runs here")
+      ->type_name("FILE");
+  report->footer(
+      "Needs python3-numpy, python3-h5py, python3-matplotlib and libjs-dygraphs. What it shows: docs/reference/report.md");
+
+  PlotArguments plot_arguments;
+  CLI::App* plot = program.add_subcommand("plot", "draw pictures/*.png of a run, a study or a comparison into its folder");
+  plot->add_option("folders", plot_arguments.folders, "output folders of runs, studies and comparisons")
+      ->required()
+      ->type_name("RUN");
+  plot->add_option("--times", plot_arguments.times, "times of the mid-plane's pictures [us], such as 15,30");
+  plot->add_option("--dpi", plot_arguments.dpi, "resolution of the pictures")->check(CLI::Range(30, 600));
 
   MaterialsArguments materials_arguments;
   CLI::App* materials = program.add_subcommand(
@@ -224,6 +244,8 @@ int dispatch(int argc, char** argv) {
     study_options.program = version_line();
     return study::run_study(study_options);
   }
+  if (*report) return write_report(report_arguments);
+  if (*plot) return draw_plots(plot_arguments);
   if (*materials) return print_materials(materials_arguments);
   if (*keys) return write_keys(page);
   if (*list) return list_scenes();

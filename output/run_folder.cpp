@@ -29,15 +29,16 @@ const struct {
 } files_of_runs[] = {
     {"",
      {"summary.json", "evidence.h5", "checkpoint*.h5", "start.h5", "outcome.json", "energy.csv", "bodies.csv", "forces.csv",
-      "profile.csv", "profile_exact.csv", "comparison.csv", "curves.csv", "scene.toml", "resolved.toml", ".*.part"}},
+      "profile.csv", "profile_exact.csv", "comparison.csv", "curves.csv", "report.html", "scene.toml", "resolved.toml",
+      ".*.part"}},
     {"history", {"*.csv"}},
     {"lines", {"*.csv"}},
     {"fields",
      {"particles.h5part", "solids.h5part", "solids[0-9]*.h5part", "structure_[0-9]*.hdf", "structure_*_[0-9]*.hdf",
       "structure.hdf.series", "structure_*.hdf.series", "obstacles_[0-9]*.hdf", "obstacles.hdf.series", ".*.part"}},
     {"pictures",
-     {"histories.png", "wall_pressure.png", "wall_motion.png", "profile.png", "energy.png", "bodies.png", "forces.png",
-      "lines.png", "mid_plane.png", "solids_*.png", "motion.png", "pressure.png", "other.png", "cost.png"}},
+     {"histories.png", "references.png", "profile.png", "energy.png", "bodies.png", "lines.png", "fields.png", "mid_plane.png",
+      "solids_*.png", "motion.png", "pressure.png", "other.png", "cost.png"}},
 };
 
 /// A table of somebody else's among the histories is not the run's: its first column is not the time, or has another name.

@@ -233,6 +233,7 @@ std::string to_json(const RunRecord& record) {
   for (const BubbleRecord& each : record.bubbles) json["bubbles"].push_back(object(each));
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
+  for (const auto& [name, count] : record.step_limits) json["step_limits"][name] = count;
   for (const TrustRecord& each : record.trust)
     json["trust"].push_back({{"about", each.about}, {"level", trust_words[int(each.level)]}, {"text", each.text}});
   json["passes"] = object(record.passes);
@@ -294,6 +295,8 @@ RunRecord read_summary(const std::filesystem::path& path) {
       if (each.is_object()) record.bubbles.push_back(bubble(each));
   for (const auto& [name, count] : numbers(json, "clamps"))
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
+  for (const auto& [name, count] : numbers(json, "step_limits"))
+    if (!std::isnan(count)) record.step_limits.emplace_back(name, static_cast<std::int64_t>(count));
   if (const auto found = json.find("trust"); found != json.end() && found->is_array())
     for (const auto& each : *found)
       if (each.is_object()) record.trust.push_back(trust(each));

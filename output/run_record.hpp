@@ -93,11 +93,12 @@ struct RunRecord {
   std::vector<ObstacleRecord> obstacles;    ///< left out when empty
   std::vector<LargestRecord> largest;       ///< likewise
   std::vector<BubbleRecord> bubbles;        ///< likewise
-  std::vector<std::pair<std::string, std::int64_t>> clamps;  ///< how often each floor or bound acted
-  std::vector<TrustRecord> trust;                            ///< whether its numbers can be trusted; left out when empty
-  NamedNumbers passes;                                       ///< seconds per named pass
-  NamedNumbers metrics;                                      ///< results of the scene's comparison
-  Reasons missing;                                           ///< why, of each of them that is NaN; left out when empty
+  std::vector<std::pair<std::string, std::int64_t>> clamps;       ///< how often each floor or bound acted
+  std::vector<std::pair<std::string, std::int64_t>> step_limits;  ///< steps by what set them, the most frequent first
+  std::vector<TrustRecord> trust;                                 ///< whether its numbers can be trusted; left out when empty
+  NamedNumbers passes;                                            ///< seconds per named pass
+  NamedNumbers metrics;                                           ///< results of the scene's comparison
+  Reasons missing;                                                ///< why, of each of them that is NaN; left out when empty
 };
 
 /// The record as JSON text, keys in the order above.

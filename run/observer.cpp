@@ -108,6 +108,7 @@ void Observer::visit_state(StateVisitor& state) {
   state.part("largest", [&] { largest_.visit_state(state); });
   state.part("lines", [&] { lines_.visit_state(state); });
   state.part("open field", [&] { open_field_.visit_state(state); });
+  state.part("steps", [&] { steps_.visit_state(state); });
   state.part("fields", [&] { snapshots_.visit_state(state); });
   state("next history", next_history_);
   if (state.restores()) next_snapshot_ = snapshots_.next_after(simulation_.time());  // times of snapshots may be others now
@@ -120,6 +121,7 @@ void Observer::begin(const Simulation& simulation) {
 
 void Observer::observe(const Simulation& simulation) {
   const double now = simulation.time() * (1 + 1e-12);
+  if (simulation.last_step_size() > 0) steps_.count(simulation.last_step());
   largest_.look(simulation);
   lines_.look(simulation);
   if (now >= next_history_ || now >= scene_.end_time) {
@@ -154,6 +156,7 @@ void Observer::flush() {
 void Observer::add_to(output::RunRecord& record) const {
   record.largest = largest_.records(!scene_.structures.empty() ? 3 : scene_.fluid.dimension);
   record.bubbles = bodies_.bubbles();
+  record.step_limits = steps_.counts();
 }
 
 output::Evidence Observer::evidence(const Simulation& simulation, const std::vector<std::string>& last_fields) const {

@@ -18,6 +18,7 @@
 #include "run/profile_lines.hpp"
 #include "run/simulation.hpp"
 #include "run/snapshots.hpp"
+#include "run/step_limits.hpp"
 #include "scene/scene.hpp"
 
 namespace undex::run {
@@ -71,6 +72,7 @@ class Observer {
   ForceHistory forces_;
   LargestValues largest_;
   ProfileLines lines_;
+  StepLimits steps_;
   OpenField open_field_;
   Snapshots snapshots_;
   double next_history_ = 0, next_snapshot_ = 0;

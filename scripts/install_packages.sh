@@ -19,10 +19,11 @@ program=(
   libudunits2-dev        # values with units in them
   libcli11-dev           # command line
   nlohmann-json3-dev     # summary.json
-  python3                # undex report and undex plot
-  python3-numpy          # the same
-  python3-matplotlib     # pictures
-  python3-h5py           # reads the field files
+  python3                # post/: undex report and undex plot
+  python3-numpy          # post/
+  python3-matplotlib     # post/: pictures, colour maps, contours
+  python3-h5py           # post/: reads the field files
+  libjs-dygraphs         # post/: the charts of a report, copied into its page
 )
 tests=(
   libgtest-dev           # tests
@@ -33,6 +34,7 @@ tests=(
   dpkg-dev               # cpack: what a Debian package depends on
   mkdocs-material        # scripts/build_site.sh: the documentation as a site (49 MB on disk)
   valgrind               # tests: counts the instructions of a step
+  chromium               # tests: opens reports, headless (414 MB with what it needs)
 )
 case ${1:-all} in
   all) packages=("${program[@]}" "${tests[@]}") ;;

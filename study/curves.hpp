@@ -1,4 +1,4 @@
-// curves.csv: what scripts/plot.py --compare draws.
+// curves.csv: what undex plot draws.
 #pragma once
 
 #include <optional>

@@ -660,8 +660,8 @@ class Pictures(Case):
             with self.subTest(ends=ends):
                 for name in names:
                     (self.here / "out" / name).write_text(texts[name][:cuts[name][k]])
-                finished = runs.call(sys.executable, CASES.parent / "scripts" / "plot.py", self.here / "out")
-                self.assertNotIn("left out", finished.stdout)
+                finished = self.undex("plot", "out")
+                self.assertNotIn("Left out", finished.stdout)
                 for picture in ("histories.png", "energy.png"):
                     self.assertIn(picture, finished.stdout)
 
@@ -877,12 +877,10 @@ class Compare(Case):
         self.tube("coarse")
         self.tube("fine", structure__cells__along=12)
         self.ends(self.undex("compare", "coarse", "fine", "-o", "both"), 0)
-        plot = [sys.executable, CASES.parent / "scripts" / "plot.py", "--compare"]
         if runs.call(sys.executable, "-c", "import numpy, matplotlib").returncode != 0:
             self.skipTest("no Matplotlib")
-        self.ends(runs.call(*plot, self.here / "both"), 0)
+        self.ends(self.undex("plot", "both"), 0)
         self.assertEqual({path.stem for path in (self.here / "both/pictures").iterdir()}, {"motion", "energy", "other", "cost"})
-        self.ends(runs.call(*plot, self.here / "coarse"), 2, "comparison.csv: missing; give the folder that undex compare")
 
 
 class Judge(Case):
@@ -1382,13 +1380,12 @@ resolution.spacing = 0.0002
     def test_pictures(self):
         if runs.call(sys.executable, "-c", "import numpy, matplotlib").returncode != 0:
             self.skipTest("no Matplotlib")
-        plot = [sys.executable, CASES.parent / "scripts" / "plot_study.py"]
         self.study()
         self.ends(self.undex("study", "gas.toml", "-j", "2"), 0)
-        self.ends(runs.call(*plot, self.here / "out/study_gas"), 0)
+        self.ends(self.undex("plot", "out/study_gas"), 0)
         self.assertEqual({path.stem for path in (self.here / "out/study_gas/pictures").iterdir()},
                          {"cost_energy_error", "order_energy_error", "conservation", "overview"})
-        self.ends(runs.call(*plot, self.here), 2, "study.json: missing; give the folder that undex study wrote")
+        self.ends(self.undex("plot", "."), 2, "give the output folder of a run")
 
 
 class Help(Case):

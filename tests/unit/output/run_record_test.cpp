@@ -52,9 +52,11 @@ TEST(RunRecord, TrustReadsBack) {
   const TemporaryFolder folder;
   RunRecord record = sample();
   EXPECT_FALSE(nlohmann::json::parse(to_json(record)).contains("trust"));
+  record.step_limits = {{"Courant (water)", 280}, {"burn (charge)", 6}};
   record.trust = {{"energy", Trust::good, "fine"}, {"charge", Trust::notice, "coarse"}, {"mass", Trust::bad, "lost"}};
   write_summary(folder.path / "summary.json", record);
   const RunRecord back = read_summary(folder.path / "summary.json");
+  EXPECT_EQ(back.step_limits, record.step_limits);
   ASSERT_EQ(back.trust.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(back.trust[k].about, record.trust[k].about);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "judge/comparisons.hpp"
+#include "run/step_limits.hpp"
 #include "scenes.hpp"
 
 namespace undex::run {
@@ -95,6 +96,15 @@ TEST(Trust, WarningsAreCounted) {
   output::RunRecord record = sound_record();
   record.warnings = {"something computes badly"};
   EXPECT_EQ(level_of(trust_of(cylinder("0.001"), record), "warnings"), Trust::notice);
+}
+
+TEST(StepLimits, AreCountedByWhatSetThem) {
+  StepLimits limits;
+  for (const char* words :
+       {"element", "Courant (water, particle 12)", "Courant (water, particle 7)", "Courant (water) x1, structure x2"})
+    limits.count(words);
+  const std::vector<std::pair<std::string, std::int64_t>> expected{{"Courant (water)", 3}, {"element", 1}};
+  EXPECT_EQ(limits.counts(), expected);
 }
 
 }  // namespace
