@@ -6,6 +6,20 @@ if(UNDEX_WITH_FEM)
   set_target_properties(undex PROPERTIES INSTALL_RPATH $ORIGIN/../lib/undex)
   install(TARGETS undex RUNTIME DESTINATION bin)
   install(TARGETS undex_meshes LIBRARY DESTINATION lib/undex)
+
+  # The program writes its man page and what shells complete it with.
+  set(texts ${PROJECT_BINARY_DIR}/installed_texts)
+  install(CODE "file(MAKE_DIRECTORY \"${texts}\")
+    execute_process(COMMAND \"$<TARGET_FILE:undex>\" manual OUTPUT_FILE \"${texts}/undex.1\" COMMAND_ERROR_IS_FATAL ANY)
+    foreach(shell bash zsh fish)
+      execute_process(COMMAND \"$<TARGET_FILE:undex>\" completion \${shell} OUTPUT_FILE \"${texts}/\${shell}\" COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()")
+  install(FILES ${texts}/undex.1 DESTINATION share/man/man1)
+  install(FILES ${texts}/bash DESTINATION share/bash-completion/completions RENAME undex)
+  install(FILES ${texts}/fish DESTINATION share/fish/vendor_completions.d RENAME undex.fish)
+  foreach(folder site-functions vendor-completions)  # zsh reads the first below /usr/local, Debian's the second below /usr
+    install(FILES ${texts}/zsh DESTINATION share/zsh/${folder} RENAME _undex)
+  endforeach()
 endif()
 install(DIRECTORY cases DESTINATION share/undex
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.csv" PATTERN "*.msh" PATTERN "*.stl" PATTERN "*.py"
@@ -15,16 +29,6 @@ install(DIRECTORY materials/data DESTINATION share/undex/materials)  # the libra
 set(pages README.md CHANGELOG.md CONTRIBUTING.md)  # the pages of docs/ lead to these
 install(FILES ${pages} LICENSE CITATION.cff DESTINATION share/undex)
 install(FILES README.md CHANGELOG.md LICENSE cmake/copyright DESTINATION share/doc/undex)
-if(EXISTS ${PROJECT_SOURCE_DIR}/man/undex.1)
-  install(FILES man/undex.1 DESTINATION share/man/man1)
-endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/completion)
-  install(FILES completion/undex.bash DESTINATION share/bash-completion/completions RENAME undex)
-  install(FILES completion/undex.fish DESTINATION share/fish/vendor_completions.d)
-  foreach(folder site-functions vendor-completions)  # zsh reads the first below /usr/local, Debian's the second below /usr
-    install(FILES completion/undex.zsh DESTINATION share/zsh/${folder} RENAME _undex)
-  endforeach()
-endif()
 
 # The libraries: find_package(undex) gives undex::<module> for each.
 set(modules core materials exact output sph_fluid sph_solid)

@@ -61,8 +61,10 @@ def install(build, prefix):
     for name in ["bin/undex", "lib/undex/libundex_meshes.so", "lib/cmake/undex/undexConfig.cmake",
                  "share/undex/cases/al_tube_fem/case.toml", "share/undex/cases/al_tube_fem/reference/displacement.csv",
                  "share/undex/cases/free_field/study.toml", "share/undex/docs/tutorial.md", "share/doc/undex/README.md",
-                 "share/doc/undex/LICENSE", "share/doc/undex/CHANGELOG.md"]:
-        require((prefix / name).is_file(), f"{name} is not installed")
+                 "share/doc/undex/LICENSE", "share/doc/undex/CHANGELOG.md",
+                 "share/man/man1/undex.1", "share/bash-completion/completions/undex", "share/zsh/site-functions/_undex",
+                 "share/fish/vendor_completions.d/undex.fish"]:
+        require((prefix / name).is_file() and (prefix / name).stat().st_size > 100, f"{name} is not installed")
     for path in (SOURCE / "core").glob("*.hpp"):
         require((prefix / "include/undex/core" / path.name).is_file(), f"core/{path.name} is not installed")
     for path in (SOURCE / "cases").rglob("*.toml"):
