@@ -46,26 +46,18 @@ std::vector<TrustRecord> ledgers(const output::RunRecord& record) {
   return found;
 }
 
+/// Bounds that acted (docs/reference/outputs.md, `clamps`).
 TrustRecord clamps(const output::RunRecord& record) {
-  struct Meaning {
-    const char *name, *words;
-  };
-  constexpr Meaning meanings[] = {{"density", "the density changed by more than a factor of e in half a step"},
-                                  {"smoothing", "the smoothing length of gas reached its bound (scheme.h_low, scheme.h_high)"},
-                                  {"filling", "gas tore open, and its density was held"},
-                                  {"energy", "gas had an energy below zero"}};
   std::string acted;
-  bool lost = false;
+  bool often = false;
   for (const auto& [name, count] : record.clamps) {
     if (count == 0) continue;
-    const auto* meaning =
-        std::find_if(std::begin(meanings), std::end(meanings), [&](const Meaning& m) { return m.name == name; });
     const double share = double(count) / std::max(1.0, double(record.particle_updates));
-    lost = lost || share > 0.01;
-    acted += (acted.empty() ? "" : "; ") + std::string(meaning == std::end(meanings) ? name.c_str() : meaning->words) + " (" +
-             output::grouped(count) + " times, " + print("%.2g %% of all updates)", 100 * share);
+    often = often || share > 0.01;
+    acted += (acted.empty() ? "" : ", ") + name + print(" in %.2g %% of all updates", 100 * share);
   }
-  return {"clamps", acted.empty() || !lost ? Trust::good : Trust::notice, acted.empty() ? "no bound acted" : acted};
+  if (acted.empty()) return {"clamps", Trust::good, "no bound acted"};
+  return {"clamps", often ? Trust::notice : Trust::good, "bounds acted: " + acted + (often ? " (undex help outputs)" : "")};
 }
 
 /// Radius of a round body [m]; 0 of others.

@@ -328,6 +328,16 @@ def clamps(run: Run) -> list[str]:
     return said
 
 
+def step_limits(run: Run) -> list[str]:
+    """What set the steps: one sentence, or none where the record does not say."""
+    counts = {name: count for name, count in (run.summary.get("step_limits") or {}).items() if isinstance(count, int) and count > 0}
+    total = sum(counts.values())
+    if not total:
+        return []
+    shares = [f"{name} {number(100 * count / total, 3)} %" for name, count in counts.items()]
+    return ["Steps were set by: " + ", ".join(shares) + "."]
+
+
 def trust(run: Run) -> list[str]:
     """What the ledgers say, in words."""
     said = []

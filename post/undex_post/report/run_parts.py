@@ -210,7 +210,7 @@ def cost(run: Run) -> Raw:
                 else "."
             )
         )
-    said.append("What set each step is printed by undex run -v.")
+    said += description.step_limits(run)
     updates, cpu = summary.get("particle_updates"), summary.get("cpu_time_s")
     if updates and cpu:
         said.append(
