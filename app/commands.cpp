@@ -112,8 +112,9 @@ int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, cons
   output::write_summary(options.output / "summary.json", result.record);  // first: a full disk must not cost the record
   judge::write_tables(options.output, verdict);
   if (options.verbosity >= 0)
-    std::printf("%s%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
-                judge::missing_text(verdict.missing).c_str(), run::trust_text(result.record.trust).c_str());
+    std::printf("%s%s%s%s%s", run::cost_text(result.record).c_str(), judge.table(verdict.metrics).c_str(),
+                judge::missing_text(verdict.missing).c_str(), run::largest_text(result.record).c_str(),
+                run::trust_text(result.record.trust).c_str());
   if (result.failure) std::rethrow_exception(result.failure);  // the record is kept all the same
   if (!result.not_saved.empty()) throw FileError(result.not_saved);
   if (result.record.status == "stopped") throw NumericalStop(result.record.message);
@@ -147,11 +148,12 @@ int resume_run(const ResumeArguments& arguments) {
   for (const std::string& warning : continued.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const scene::Scene scene =
       read_scene({.scene = folder / "resolved.toml", .overrides = arguments.overrides, .threads = arguments.threads});
+  run::require_same_scene(continued, scene);
   if (run::is_done(folder, continued, scene)) {
-    std::printf("%s: done at %g s; --tend T goes on to a later end\n", folder.c_str(), continued.checkpoint->title().time);
+    std::printf("%s: done at %s; --tend T goes on to a later end\n", folder.c_str(),
+                output::with_unit(continued.checkpoint->title().time, "s").c_str());
     return exit_done;
   }
-  run::require_same_scene(continued, scene);
   const judge::Judge judge(scene);
   run::RunOptions options = options_for(scene, judge, folder, arguments.verbosity);
   options.scene_text = output::text_of(folder / "scene.toml").value_or(scene::to_toml(scene));

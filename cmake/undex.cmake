@@ -1,4 +1,4 @@
-# The few rules that every target of the project shares.
+# The few rules that every target of the project shares. They hold in this build alone: what is installed does not name them.
 add_library(undex_rules INTERFACE)
 target_include_directories(undex_rules INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(undex_rules INTERFACE -Wall -Wextra -Wpedantic $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
@@ -69,14 +69,15 @@ function(undex_unity target cold)
   endif()
 endfunction()
 
-# undex_module(name [ON_SCENES [COLD]] [PUBLIC libs...] [PRIVATE libs...] SOURCES files...): a library of the project.
+# undex_module(name [ON_SCENES [COLD]] [PUBLIC libs...] [PRIVATE libs...] SOURCES files...): a library of the project. Private libraries
+# of which no more is needed once they are compiled stand between $<BUILD_INTERFACE: and >.
 function(undex_module name)
   cmake_parse_arguments(ARG "ON_SCENES;COLD" "" "PUBLIC;PRIVATE;SOURCES" ${ARGN})
   add_library(undex_${name} STATIC ${ARG_SOURCES})
-  target_link_libraries(undex_${name} PUBLIC undex_rules ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_link_libraries(undex_${name} PUBLIC $<BUILD_INTERFACE:undex_rules> OpenMP::OpenMP_CXX ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   undex_unity(undex_${name} "${ARG_ON_SCENES}")
   if(ARG_COLD)
-    target_link_libraries(undex_${name} PRIVATE undex_cold_rules)
+    target_link_libraries(undex_${name} PRIVATE $<BUILD_INTERFACE:undex_cold_rules>)
     target_precompile_headers(undex_${name} REUSE_FROM undex_cold_scene_headers)
   elseif(ARG_ON_SCENES)
     target_precompile_headers(undex_${name} REUSE_FROM undex_scene_headers)

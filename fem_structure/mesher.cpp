@@ -23,7 +23,7 @@ decltype(&undex_deal_mesh) deal_mesh() {
     void* const found = library ? dlsym(library, "undex_deal_mesh") : nullptr;
     if (!found)
       throw FileError(std::string("the library of meshes cannot be loaded: ") + dlerror() +
-                      "; it is built with the program and must stay beside it");
+                      "; it is built with the program and must stay beside it, or in lib/undex of an installed one");
     return reinterpret_cast<decltype(&undex_deal_mesh)>(found);
   }();
   return function;

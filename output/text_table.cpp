@@ -57,7 +57,7 @@ std::string with_unit(double value, const std::string& unit) {
   if (value == 0 || !std::isfinite(value)) return print("%g ", value) + unit;
   if (unit == "m" && std::abs(value) >= 1e-5 && std::abs(value) < 1) return print("%.4g mm", value * 1e3);  // as engineers count
   for (const Prefix& prefix : prefixes)
-    if (std::abs(value) >= 0.99995 * prefix.factor && !(prefix.factor > 1 && (unit == "s" || unit == "m")))
+    if (std::abs(value) >= 0.99995 * prefix.factor && !(prefix.factor > 1 && (unit == "s" || unit == "m" || unit == "m/s")))
       return print("%.4g ", value / prefix.factor) + prefix.letter + unit;
   return print("%.3g ", value) + unit;
 }

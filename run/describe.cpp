@@ -180,4 +180,22 @@ std::string cost_text(const output::RunRecord& record) {
   return text;
 }
 
+std::string largest_text(const output::RunRecord& record) {
+  if (record.largest.empty()) return "";
+  std::vector<std::vector<std::string>> lines;
+  for (const output::LargestRecord& each : record.largest) {
+    const char* unit = each.quantity == "pressure" ? "Pa" : each.quantity == "speed" ? "m/s" : "";
+    std::string value = *unit ? output::with_unit(each.value, unit) : format("%.4g", each.value);
+    if (each.quantity == "temperature") value += " K";
+    std::string place;
+    for (const double x : each.place) place += (place.empty() ? "at (" : ", ") + format("%.4g", 1e3 * x);
+    std::string quantity = each.quantity;
+    std::replace(quantity.begin(), quantity.end(), '_', ' ');
+    lines.push_back({"  " + quantity, each.part, value, "after " + output::with_unit(each.time_s, "s"), place + ") mm"});
+  }
+  std::string text = "\n";
+  text += output::inked("Largest values", output::Ink::bold);
+  return text + "\n" + output::aligned(lines, 5);
+}
+
 }  // namespace undex::run

@@ -16,4 +16,7 @@ std::string describe(const scene::Scene& scene, std::string* drawing = nullptr);
 /// What a run cost and how well its ledgers close, as text of a few lines.
 std::string cost_text(const output::RunRecord& record);
 
+/// The largest values of the run, with their places and times; empty where none were looked for.
+std::string largest_text(const output::RunRecord& record);
+
 }  // namespace undex::run

@@ -143,7 +143,7 @@ std::vector<TrustRecord> trust_of(const scene::Scene& given, const output::RunRe
   if (!record.warnings.empty())
     add({{"warnings", Trust::notice,
           output::grouped(std::int64_t(record.warnings.size())) +
-              (record.warnings.size() == 1 ? " warning stands above" : " warnings stand above") + " and in summary.json"}});
+              (record.warnings.size() == 1 ? " warning was given" : " warnings were given") + ": they stand in summary.json"}});
   add(known_limits(given));
   return all;
 }

@@ -165,12 +165,25 @@ bool read_mesh(const TableReader& table, Draft& draft, fem::Settings& structure)
   return good;
 }
 
+/// The faces of a structure: those that are computed, those that symmetry planes cut away, and the names that the scene gives.
+struct KnownFaces {
+  std::vector<std::string> kept, cut_away = {};
+  GroupNames names = {};
+};
+
 /// Is the face one of the mesh's?
-void check_face(const TableReader& table, const char* key, const std::string& text, const std::vector<std::string>& known,
-                const GroupNames& names) {
+void check_face(const TableReader& table, const char* key, const std::string& text, const KnownFaces& faces) {
+  const std::vector<std::string>& known = faces.kept;
+  const GroupNames& names = faces.names;
   const std::string face = names.meant_by(text);
   if (known.empty() || std::find(known.begin(), known.end(), face) != known.end()) return;
-  if (names.given.empty()) table.unknown_word(key, face, known);
+  if (std::find(faces.cut_away.begin(), faces.cut_away.end(), face) != faces.cut_away.end())
+    table.complain(key,
+                   table.path_of(key) + ": the face '" + face +
+                       "' lies beyond a symmetry plane, which stands for it: name the face on the kept side, which holds for "
+                       "both; it is one of " +
+                       listed(known));
+  else if (names.given.empty()) table.unknown_word(key, face, known);
   else table.complain(key, table.path_of(key) + ": the mesh has no face '" + face + "'; its faces are " + listed(known));
 }
 
@@ -202,16 +215,14 @@ void take_names(const GroupNames& names, fem::Settings& structure) {
 
 /// The tables of a list, each with a face of the mesh.
 template <Described Record>
-void read_faces(const TableReader& table, const char* list, const std::vector<std::string>& faces, const GroupNames& names,
-                std::vector<Record>& into, auto&& check) {
+void read_faces(const TableReader& table, const char* list, const KnownFaces& faces, std::vector<Record>& into, auto&& check) {
   const auto nodes = table.tables(list);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const TableReader one(*nodes[i], table.path_of(list) + '.' + std::to_string(i), list, 3, table.report());
     const std::size_t before = table.report().size();
     Record record;
     read_fields(one, record);
-    if (const Node* face = one.find("face"); face && face->kind == Node::Kind::text)
-      check_face(one, "face", record.face, faces, names);
+    if (const Node* face = one.find("face"); face && face->kind == Node::Kind::text) check_face(one, "face", record.face, faces);
     if (table.report().size() == before) check(one, record);
     into.push_back(record);
   }
@@ -233,7 +244,7 @@ void check_load(const TableReader& table, const fem::PressureLoad& load) {
 }  // namespace
 
 void read_supports(const TableReader& table, const std::vector<std::string>& faces, std::vector<Support>& into) {
-  read_faces(table, "supports", faces, GroupNames{}, into, [](const TableReader&, const Support&) {});
+  read_faces(table, "supports", KnownFaces{.kept = faces}, into, [](const TableReader&, const Support&) {});
 }
 
 namespace {
@@ -253,15 +264,20 @@ void read_one(const Node& node, const std::string& path, const std::string& name
   for (int a = 0; a < 3; ++a)
     if (draft.scene.fluid.symmetry.axis[a]) structure.symmetry_axes.push_back(a);
 
-  std::vector<std::string> faces;
-  if (shape_good) faces = StructureShape(structure.mesh).faces(draft.scene.fluid.symmetry.axis);
-  const auto* gmsh = std::get_if<fem::GmshMesh>(&structure.mesh);
-  const GroupNames names = gmsh && gmsh->read ? gmsh->read->face_names : GroupNames{};
-  read_faces(table, "supports", faces, names, structure.supports, [](const TableReader&, const Support&) {});
-  read_faces(table, "loads", faces, names, structure.loads, check_load);
+  KnownFaces faces;
+  if (shape_good) {
+    const StructureShape shape(structure.mesh);
+    faces.kept = shape.faces(draft.scene.fluid.symmetry.axis);
+    for (const std::string& face : shape.faces({false, false, false}))
+      if (std::find(faces.kept.begin(), faces.kept.end(), face) == faces.kept.end()) faces.cut_away.push_back(face);
+  }
+  if (const auto* gmsh = std::get_if<fem::GmshMesh>(&structure.mesh); gmsh && gmsh->read) faces.names = gmsh->read->face_names;
+  const GroupNames& names = faces.names;
+  read_faces(table, "supports", faces, structure.supports, [](const TableReader&, const Support&) {});
+  read_faces(table, "loads", faces, structure.loads, check_load);
   structure.planes = draft.scene.solids.planes;
   structure.gravity = draft.scene.fluid.gravity;
-  for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces, names);
+  for (const std::string& face : structure.wet_faces) check_face(table, "wet", face, faces);
   take_names(names, structure);
   if (!table.has("material"))  // what asks for one of the whole structure gets that of the first part
     for (const fem::Part& part : structure.parts)

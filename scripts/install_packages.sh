@@ -31,6 +31,7 @@ tests=(
   libbenchmark-dev       # bench/: Google Benchmark
   clang-format           # tests: the tree is laid out as .clang-format says
   gmsh                   # tests: the meshes that docs/tasks tells how to make (33 kB: its library comes with deal.II)
+  dpkg-dev               # cpack: what a Debian package depends on
   mkdocs-material        # scripts/build_site.sh: the documentation as a site (49 MB on disk)
   valgrind               # tests: counts the instructions of a step
   chromium               # tests: opens reports, headless (414 MB with what it needs)

@@ -118,7 +118,8 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "26:21: structure.supports.0.face: unknown 'hihg'; did you mean 'high'?\n"},
       {"face that symmetry cuts away",
        with(coupled_tube, "wet = [\"inner\"]", "wet = [\"inner\"]\nsupports = [{face = \"low\"}]"),
-       "26:21: structure.supports.0.face: unknown 'low'; known: inner, outer, high\n"},
+       "26:21: structure.supports.0.face: the face 'low' lies beyond a symmetry plane, which stands for it: name the face on the "
+       "kept side, which holds for both; it is one of inner, outer, high\n"},
       {"shell of a rod",
        "end_time = 1e-5\n[structure]\nmaterial = \"copper-ofhc\"\nelement = \"shell\"\nshape = {type = \"rod\", radius = 1, low "
        "= 0, high = 9}\n",
