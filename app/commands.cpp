@@ -44,8 +44,20 @@ std::vector<scene::Override> parsed(const std::vector<std::string>& texts) {
   return overrides;
 }
 
+/// Folders that may hold scenes, the nearest first.
+std::vector<fs::path> case_folders() {
+  std::vector<fs::path> folders;
+  if (const char* given = std::getenv("UNDEX_CASES"); given && *given) folders.emplace_back(given);
+  folders.emplace_back("cases");
+  try {
+    folders.push_back(data_folder() / "cases");
+  } catch (const FileError&) {  // a program on its own, without what it carries
+  }
+  return folders;
+}
+
 scene::Scene read_scene(const SceneArguments& arguments) {
-  scene::Scene scene = scene::read(arguments.scene, judge::comparison_kinds(), parsed(arguments.overrides));
+  scene::Scene scene = scene::read(shipped_or_own(arguments.scene), judge::comparison_kinds(), parsed(arguments.overrides));
   if (arguments.threads > 0) scene.fluid.numerics.threads = arguments.threads;
   if (scene.fluid.numerics.threads > 0) omp_set_num_threads(scene.fluid.numerics.threads);
   return scene;
@@ -54,15 +66,6 @@ scene::Scene read_scene(const SceneArguments& arguments) {
 std::string whole_text(const fs::path& file) {
   if (const auto text = output::text_of(file)) return *text;
   throw FileError(file.string() + ": cannot be read any more; check the file");
-}
-
-/// Folders that may hold scenes, the nearest first.
-std::vector<fs::path> case_folders() {
-  std::vector<fs::path> folders;
-  if (const char* given = std::getenv("UNDEX_CASES"); given && *given) folders.emplace_back(given);
-  folders.emplace_back("cases");
-  folders.push_back(data_folder() / "cases");
-  return folders;
 }
 
 /// The verdict, its metrics in the record. Where it cannot be had the run has failed, and `undex judge` may try again.
@@ -124,6 +127,14 @@ int compute_and_judge(const scene::Scene& scene, const judge::Judge& judge, cons
 }
 
 }  // namespace
+
+fs::path shipped_or_own(const fs::path& named) {
+  std::error_code error;
+  if (named.empty() || fs::exists(named, error) || named.has_parent_path()) return named;
+  for (const fs::path& folder : case_folders())
+    if (fs::is_directory(folder / named, error)) return folder / named;
+  return named;
+}
 
 int run_scene(const RunArguments& arguments) {
   const scene::Scene scene = read_scene(arguments);

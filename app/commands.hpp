@@ -19,6 +19,9 @@ struct RunArguments : SceneArguments {
   bool force = false;  ///< an output folder that is not empty may be overwritten
 };
 
+/// The path as it is; or, where there is nothing and it is a bare name, the shipped scene of that name.
+std::filesystem::path shipped_or_own(const std::filesystem::path& named);
+
 int run_scene(const RunArguments& arguments);
 struct ResumeArguments {
   std::filesystem::path folder;

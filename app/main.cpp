@@ -29,7 +29,8 @@ using namespace undex;
 using namespace undex::app;
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("scene", arguments.scene, "scene file (.toml), or a folder with case.toml")->required();
+  command.add_option("scene", arguments.scene, "scene file (.toml), a folder with case.toml, or the name of a shipped scene")
+      ->required();
   command
       .add_option_function<std::string>(
           "-P,--set", [&](const std::string& text) { arguments.overrides.push_back(text); },
@@ -242,6 +243,7 @@ int dispatch(int argc, char** argv) {
   }
   if (*study_command) {
     study_options.program = version_line();
+    study_options.study = shipped_or_own(study_options.study);
     return study::run_study(study_options);
   }
   if (*report) return write_report(report_arguments);

@@ -112,8 +112,12 @@ std::vector<TrustRecord> known_limits(const scene::Scene& scene) {
   const auto limit = [&](const std::string& text) { found.push_back({"known limit", Trust::good, text}); };
   const std::string scheme = word_of(scene.fluid.numerics.scheme);
   const bool reconstructs = scheme.starts_with("riemann");
-  const bool curved = std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(),
-                                  [](const sph::Wall& wall) { return !std::holds_alternative<Box>(wall.container); });
+  const bool curved = std::any_of(scene.fluid.walls.begin(), scene.fluid.walls.end(), [](const sph::Wall& wall) {
+    const auto side = wall.faces.find("side");
+    const bool closed =
+        side == wall.faces.end() || (side->second != sph::FaceCondition::open && side->second != sph::FaceCondition::radiating);
+    return closed && !std::holds_alternative<Box>(wall.container);
+  });
   if (scheme == "riemann" && curved) limit("impulses on curved walls come out 2 to 3 % high (riemann_corrected: within 1 %)");
   if (!reconstructs)
     limit("viscosity of Monaghan's kind smears fronts: first peaks are up to 20 % low; riemann is the scheme to rely on");

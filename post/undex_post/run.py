@@ -36,7 +36,7 @@ _KINDS = {
     **{name: (int, float) for name in _NUMBERS},
     **{name: (str,) for name in ("scene", "status", "message", "program")},
     **{name: (list,) for name in ("warnings", "bubbles", "structures", "obstacles", "trust")},
-    **{name: (dict,) for name in ("largest", "clamps", "passes", "metrics", "missing")},
+    **{name: (dict,) for name in ("largest", "clamps", "step_limits", "passes", "metrics", "missing")},
 }
 
 

@@ -7,6 +7,7 @@
 Exit codes: 0 done, 1 internal or I/O, 2 usage or scene, 3 stopped by the numerics, 130 and 143 interrupted and terminated.
 """
 import csv
+import fcntl
 import json
 import math
 import os
@@ -18,9 +19,11 @@ import select
 import shutil
 import signal
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 import xml.etree.ElementTree
@@ -1429,6 +1432,14 @@ class Help(Case):
             self.ends(self.undex("new", name, f"mine/{name}"), 0)
             self.ends(self.undex("check", f"mine/{name}"), 0)
 
+    def test_shipped_scenes_by_name(self):
+        """A bare name means the shipped scene, unless something of that name is here."""
+        self.ends(self.undex("check", "petn_slab"), 0)
+        self.ends(self.undex("study", "petn_slab", "--list"), 0)
+        self.ends(self.undex("check", "petn_slap"), 1, "no such scene")
+        (self.here / "petn_slab").mkdir()
+        self.ends(self.undex("check", "petn_slab"), 1, "the folder holds no case.toml")
+
     def test_new_spoils_nothing(self):
         kept = self.scene("mine")
         self.ends(self.undex("new", "plate", "."), 2, "is not empty")
@@ -1577,6 +1588,7 @@ class Telling(Case):
 
     def test_bar_on_a_terminal(self):
         ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 160, 0, 0))  # 160 columns: nothing is cut
         try:
             with subprocess.Popen([PROGRAM, "run", CASES / "rigid_cylinder", "-o", "out", *runs.overrides(LONG)], cwd=self.here,
                                   stdout=theirs, stderr=subprocess.DEVNULL, env=runs.ENVIRONMENT) as process:
