@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/data_folder.hpp"
+#include "app/shell_words.hpp"
 #include "core/errors.hpp"
 #include "output/files.hpp"
 #include "output/terminal.hpp"
@@ -128,10 +129,6 @@ std::string page_text(const fs::path& page) {
 void print_list(const std::string& heading, const std::vector<std::pair<std::string, std::string>>& entries) {
   std::printf("\n%s\n", inked(heading, Ink::bold).c_str());
   for (const auto& [name, words] : entries) std::printf("  %-18s %s\n", name.c_str(), words.c_str());
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 void print_topics(const CLI::App& program) {

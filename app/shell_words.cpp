@@ -9,10 +9,6 @@
 namespace undex::app {
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
-}
-
 /// Options with a name; positional words have none.
 std::vector<const CLI::Option*> options_of(const CLI::App& command) {
   return command.get_options(
@@ -91,6 +87,10 @@ std::string troff(const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
 
 std::string completion_script(const CLI::App& program, const std::string& shell) {
   if (shell == "bash") return bash_script(program);

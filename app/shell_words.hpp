@@ -3,8 +3,12 @@
 
 #include <CLI/App.hpp>
 #include <string>
+#include <vector>
 
 namespace undex::app {
+
+/// The commands that the program tells of.
+std::vector<const CLI::App*> commands_of(const CLI::App& program);
 
 /// A script that completes commands, options, scenes and files, for "bash", "zsh" or "fish". Throws UsageError for another shell.
 std::string completion_script(const CLI::App& program, const std::string& shell);
