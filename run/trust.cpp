@@ -144,10 +144,10 @@ std::vector<TrustRecord> trust_of(const scene::Scene& given, const output::RunRe
     add(charges(given));
     add(walls(given));
   }
-  if (!record.warnings.empty())
+  if (const std::size_t count = record.warnings.size(); count > 0)
     add({{"warnings", Trust::notice,
-          output::grouped(std::int64_t(record.warnings.size())) +
-              (record.warnings.size() == 1 ? " warning was given" : " warnings were given") + ": they stand in summary.json"}});
+          count == 1 ? "1 warning was given: it stands in summary.json"
+                     : output::grouped(std::int64_t(count)) + " warnings were given: they stand in summary.json"}});
   add(known_limits(given));
   return all;
 }

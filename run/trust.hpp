@@ -12,7 +12,7 @@ namespace undex::run {
 
 /// One sentence a matter, the ledgers first. `given`: the scene as it was read. The record is complete but for these.
 /// Thresholds: energy within 1 % is good, beyond 5 % bad; mass 1e-9; ten spacings in a charge's radius and five in a wall's
-/// thickness are good, below five and two bad (docs/results/accuracy.md).
+/// thickness are good (docs/reference/outputs.md has all of them).
 std::vector<output::TrustRecord> trust_of(const scene::Scene& given, const output::RunRecord& record);
 
 /// The block that ends a run: a line a matter, and the verdict.

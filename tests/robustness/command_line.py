@@ -1268,10 +1268,13 @@ resolution.spacing = 0.0002
         self.ends(self.undex("study", "gas.toml", "-o", "whole"), 0)
         shards = [subprocess.Popen([PROGRAM, "study", "gas.toml", "--shard", f"{k}/3"], cwd=self.here, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, env=runs.ENVIRONMENT) for k in (1, 2, 3)]
+        mine = []
         for shard in shards:
             said, wrong = shard.communicate(timeout=60)
             self.assertEqual(shard.returncode, 0, said + wrong)
+            mine.append(int(re.search(r"shard \d of 3: (\d) of them", said)[1]))
             self.assertIn("undex study gas.toml -o out/study_gas --table", said)
+        self.assertEqual(mine, [2, 1, 1])
         self.assertFalse((self.here / "out/study_gas/study.csv").exists())
         before = self.written()
         self.assertEqual(set(before), set(self.NAMES))
