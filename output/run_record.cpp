@@ -183,6 +183,14 @@ BubbleRecord bubble(const nlohmann::ordered_json& json) {
   return bubble;
 }
 
+SplitRecord split(const nlohmann::ordered_json& json) {
+  SplitRecord split;
+  split.body = text(json, "body");
+  get(json, "particles_at_start", split.particles_at_start);
+  get(json, "particles", split.particles);
+  return split;
+}
+
 nlohmann::ordered_json summary_at(const std::filesystem::path& path) {
   require_file(path);
   std::ifstream file(path);
@@ -231,6 +239,9 @@ std::string to_json(const RunRecord& record) {
   for (const ObstacleRecord& obstacle : record.obstacles) json["obstacles"].push_back(object(obstacle));
   if (!record.largest.empty()) json["largest"] = object(record.largest);
   for (const BubbleRecord& each : record.bubbles) json["bubbles"].push_back(object(each));
+  for (const SplitRecord& each : record.splits)
+    json["splits"].push_back(
+        {{"body", each.body}, {"particles_at_start", each.particles_at_start}, {"particles", each.particles}});
   json["clamps"] = nlohmann::ordered_json::object();
   for (const auto& [name, count] : record.clamps) json["clamps"][name] = count;
   for (const auto& [name, count] : record.step_limits) json["step_limits"][name] = count;
@@ -293,6 +304,9 @@ RunRecord read_summary(const std::filesystem::path& path) {
   if (const auto found = json.find("bubbles"); found != json.end() && found->is_array())
     for (const auto& each : *found)
       if (each.is_object()) record.bubbles.push_back(bubble(each));
+  if (const auto found = json.find("splits"); found != json.end() && found->is_array())
+    for (const auto& each : *found)
+      if (each.is_object()) record.splits.push_back(split(each));
   for (const auto& [name, count] : numbers(json, "clamps"))
     if (!std::isnan(count)) record.clamps.emplace_back(name, static_cast<std::int64_t>(count));
   for (const auto& [name, count] : numbers(json, "step_limits"))

@@ -59,6 +59,12 @@ struct BubbleRecord {
   std::string missing;                                               ///< why; left out when empty
 };
 
+/// Of a body of gas whose particles have split.
+struct SplitRecord {
+  std::string body;
+  std::int64_t particles_at_start = 0, particles = 0;
+};
+
 /// How a run stands in one matter.
 enum class Trust { good, notice, bad };
 struct TrustRecord {
@@ -93,6 +99,7 @@ struct RunRecord {
   std::vector<ObstacleRecord> obstacles;    ///< left out when empty
   std::vector<LargestRecord> largest;       ///< likewise
   std::vector<BubbleRecord> bubbles;        ///< likewise
+  std::vector<SplitRecord> splits;          ///< likewise
   std::vector<std::pair<std::string, std::int64_t>> clamps;       ///< how often each floor or bound acted
   std::vector<std::pair<std::string, std::int64_t>> step_limits;  ///< steps by what set them, the most frequent first
   std::vector<TrustRecord> trust;                                 ///< whether its numbers can be trusted; left out when empty

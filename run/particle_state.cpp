@@ -114,8 +114,9 @@ ParticleState::ParticleState(const scene::Scene& scene, const Simulation& simula
     p.h = h[i] * spacings / scene.fluid.numerics.eta;
     p.image = false;
     const double rest = column[b] ? column[b](in_space(p.x)).density : at_rest[b];
-    p.moved = p.v.norm() > signal[b] * sound[b] || std::abs(p.rho - rest) > signal[b] * rest ||
-              (p.x - start[std::size_t(id[i])]).norm() > step[b];
+    const auto number = std::size_t(id[i]);  // beyond those of the start: half of one that has split
+    p.moved = p.v.norm() > signal[b] * sound[b] || std::abs(p.rho - rest) > signal[b] * rest || number >= start.size() ||
+              (p.x - start[number]).norm() > step[b];
     bodies_[b].moved = bodies_[b].moved || p.moved;
     bodies_[b].particles.push_back(p);
     BodyTotals& sum = totals_[b];

@@ -9,7 +9,10 @@ void add(const sph::Fluid& fluid, output::RunRecord& record) {
   record.fluid_substeps = fluid.substeps();
   record.particles = std::int64_t(fluid.particle_count());
   record.wall_particles = std::int64_t(fluid.wall_particle_count());
-  record.particle_updates = record.particles * record.steps;
+  record.particle_updates = fluid.updates();
+  const std::vector<std::size_t> laid = fluid.particles_by_body_at_start(), now = fluid.particles_by_body();
+  for (std::size_t b = 0; b < now.size(); ++b)
+    if (now[b] > laid[b]) record.splits.push_back({fluid.settings().bodies[b].name, std::int64_t(laid[b]), std::int64_t(now[b])});
   record.neighbour_interactions = fluid.neighbour_interactions();
   record.solver_memory_bytes += std::int64_t(fluid.memory_bytes());
   const sph::Clamps clamps = fluid.clamps();

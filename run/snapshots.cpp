@@ -1,5 +1,6 @@
 #include "run/snapshots.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -69,6 +70,12 @@ void write_cells(double time, BodySnapshot snapshot, bool at_stop, output::Struc
 
 Snapshots::Snapshots(const scene::Scene& scene, const Simulation& simulation, const std::filesystem::path& folder, bool goes_on)
     : simulation_(simulation), folder_(folder / "fields"), wanted_(scene.output), structures_(scene.structures) {
+  // Of particles that split neither mass nor body can be told from the number.
+  if (std::any_of(scene.fluid.bodies.begin(), scene.fluid.bodies.end(),
+                  [](const sph::Body& body) { return body.variable_h && body.split > 1; }))
+    for (const char* name : {"material", "mass"})
+      if (std::find(wanted_.particle_fields.begin(), wanted_.particle_fields.end(), name) == wanted_.particle_fields.end())
+        wanted_.particle_fields.emplace_back(name);
   if (wanted_.field_interval > 0 || !wanted_.field_times.empty()) open(goes_on);
 }
 

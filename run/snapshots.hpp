@@ -43,7 +43,7 @@ class Snapshots {
 
   const Simulation& simulation_;
   std::filesystem::path folder_;
-  const scene::Output& wanted_;
+  scene::Output wanted_;
   const std::vector<fem::Settings>& structures_;
   double last_time_ = -1.0;
   std::optional<output::ParticleFields> water_;

@@ -85,6 +85,21 @@ std::vector<TrustRecord> charges(const scene::Scene& scene) {
   return found;
 }
 
+/// Gas whose particles have split (docs/theory/equations.md, section 6).
+std::vector<TrustRecord> splits(const scene::Scene& scene, const output::RunRecord& record) {
+  std::vector<TrustRecord> found;
+  for (const output::SplitRecord& each : record.splits) {
+    const auto body = std::find_if(scene.fluid.bodies.begin(), scene.fluid.bodies.end(),
+                                   [&](const sph::Body& one) { return one.name == each.body; });
+    const bool all = body != scene.fluid.bodies.end() && each.particles >= body->split * each.particles_at_start;
+    found.push_back({"gas", all ? Trust::notice : Trust::good,
+                     "'" + each.body + "' has grown: its " + output::grouped(each.particles_at_start) + " particles are " +
+                         output::grouped(each.particles) + " by splitting" +
+                         (all ? ", which is its limit (split): beyond it the gas may lose its neighbours" : "")});
+  }
+  return found;
+}
+
 /// Walls that deform in spacings of the water.
 std::vector<TrustRecord> walls(const scene::Scene& scene) {
   std::vector<TrustRecord> found;
@@ -142,6 +157,7 @@ std::vector<TrustRecord> trust_of(const scene::Scene& given, const output::RunRe
   if (!record.clamps.empty()) add({clamps(record)});
   if (!scene::on_a_line(given.geometry)) {
     add(charges(given));
+    add(splits(given, record));
     add(walls(given));
   }
   if (const std::size_t count = record.warnings.size(); count > 0)

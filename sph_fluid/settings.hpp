@@ -169,6 +169,8 @@ struct Body {
   std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
+  /// Particles that have grown past twice their cell split, until there are this many times as many; 1: never (water/split.hpp).
+  int split = 64;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
   std::optional<RadialMotion> radial;       ///< added too
@@ -242,6 +244,12 @@ void describe(Body& body, Visit&& visit) {
   visit(body.variable_h, {.name = "variable_h",
                           .rule = "true for gases and charges, else false",
                           .meaning = "the smoothing length follows the density"});
+  visit(body.split,
+        {.name = "split",
+         .range = Range::between(1, 10000),
+         .used = body.variable_h,
+         .meaning = "where it does: particles that have grown past twice their volume on the lattice split in two, until "
+                    "there are this many times as many; 1: never"});
 }
 
 /// Specific internal energy [J/kg] of a uniform body at the start.

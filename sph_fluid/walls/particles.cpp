@@ -1,5 +1,7 @@
 #include "sph_fluid/walls/particles.hpp"
 
+#include <algorithm>
+
 namespace undex::sph {
 namespace {
 
@@ -30,6 +32,7 @@ void Particles::resize(std::size_t n, bool with_energy) {
   for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
   if (with_energy) energy.assign(n, 0.0);
   id.resize(n);
+  half.assign(n, 0);
 }
 
 void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {
@@ -65,6 +68,22 @@ void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vecto
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
   }
+}
+
+void Particles::insert_after(const std::vector<std::uint32_t>& places) {
+  for_each_array(*this, [&](Role, auto& array) {
+    if (array.empty()) return;
+    std::size_t end = array.size(), to = end + places.size();
+    array.resize(to);
+    for (std::size_t k = places.size(); k-- > 0;) {
+      const std::size_t behind = places[k] + 1;
+      std::move_backward(array.begin() + std::ptrdiff_t(behind), array.begin() + std::ptrdiff_t(end),
+                         array.begin() + std::ptrdiff_t(to));
+      to -= end - behind;
+      array[--to] = array[places[k]];
+      end = behind;
+    }
+  });
 }
 
 void Particles::keep_start() {
@@ -151,7 +170,13 @@ void Particles::visit_state(StateVisitor& state, bool with_evaluated) {
   for (std::size_t i = 0; i < size(); ++i) of_id[id[i]] = std::uint32_t(i);
   state("place in memory", of_id);
   const auto each = [&](const auto& array, auto& owner) {
-    if (array.role == Role::index || (array.role == Role::evaluated && !with_evaluated)) return;
+    if (array.role == Role::index) return;
+    if (array.role == Role::evaluated && !with_evaluated) {
+      if (state.restores())
+        for (const auto member : array.member)
+          if (!(owner.*member).empty()) (owner.*member).resize(of_id.size());
+      return;
+    }
     constexpr std::size_t count = std::tuple_size_v<decltype(array.member)>;
     for (std::size_t a = 0; a < count; ++a) {
       const std::string component = count > 1 ? std::string("_") + "xyz"[a] : std::string();

@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
+#include "sph_fluid/water/split.hpp"
 
 namespace undex::sph {
 namespace {
@@ -23,10 +24,7 @@ materials::PressureSound burning_state(const materials::Jwl& law, const Group& g
   const materials::ProgrammedBurn& burn = *group.body->burn;
   double fraction = 1.0;
   if (!burn.instantaneous) {
-    // The front is timed from where the zone was at the start.
-    const double since = time - group.lighting[k];
-    // The front lies in the middle of the ramp: particles see half of the burn from either side, and no delay.
-    const double timed = burn.width > 0 ? std::clamp(0.5 + since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
+    const double timed = share_burnt(group, k, time);
     // Burn by compression is not kept once the zone expands again: kept, the maximum would climb on the unburned
     // charge's own noise until it detonates by itself.
     fraction = std::max(timed, burn.fraction(burn.origin, -1.0, rho / group.body->material.rho0));
@@ -66,8 +64,9 @@ void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
   omp_set_num_threads(threads_);  // another fluid of this process may have asked for another number
   sort(set);
   equation_of_state(set, ahead);
-  set.particles.turn_rates();
   pack_walls(set);
+  if (ahead.whole) split_grown(set, ahead);
+  set.particles.turn_rates();
   find_images(set, ahead);
   pairs(set, ahead.at_rest);
   wall_forces(set);
@@ -116,6 +115,19 @@ void Evaluation::equation_of_state(ParticleSet& set, const Ahead& ahead) {
   set.reach = loops_.support * h_max;
   set.blocks.build(set.views, set.reach);
   signals_.find(set);
+}
+
+void Evaluation::split_grown(ParticleSet& set, const Ahead& ahead) {
+  if (!any_has_grown(set, settings_, ahead.time)) return;
+  find_images(set, {.at_rest = true});  // radiating faces are shown once, by the evaluation
+  {
+    const auto timer = timers_.measure("splitting");
+    split(set, find_splits(set, settings_, ahead.time, pair_input(set)));
+  }
+  const Clamps counted = clamps_;
+  sort(set);
+  equation_of_state(set, ahead);
+  clamps_ = counted;
 }
 
 template <class Law>
@@ -171,7 +183,8 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
     const double r = std::max(p.x[i], nearest);
     if (rings_) q.vz = variable ? ring_area(q.volume, r) : q.volume / (2.0 * std::numbers::pi * r);
     if (variable) {
-      const double wanted = std::pow((rings_ ? q.vz : q.volume) / cell, inverse_dimension);
+      const double growth = (rings_ ? q.vz : q.volume) / cell;
+      const double wanted = std::pow(group.body->split > 1 ? even_growth(growth, p.half[i]) : growth, inverse_dimension);
       held += wanted < low || wanted > high;
       q.h *= std::clamp(wanted, low, high);
       h_max = std::max(h_max, q.h);

@@ -22,6 +22,7 @@ struct Ahead {
   double half = 0, bend = 0;
   double slow_half = 0, slow_bend = 0;
   bool at_rest = false;  ///< all at rest under one pressure: gradients vanish
+  bool whole = false;    ///< a step ends here: particles that have grown may split
 };
 
 class Evaluation {
@@ -50,6 +51,8 @@ class Evaluation {
  private:
   void sort(ParticleSet& set);
   void equation_of_state(ParticleSet& set, const Ahead& ahead);
+  /// Particles that have grown become two (split.hpp).
+  void split_grown(ParticleSet& set, const Ahead& ahead);
   template <class Law>
   void evaluate_group(ParticleSet& set, const Law& law, Group& group, const Ahead& ahead);
   void find_images(ParticleSet& set, const Ahead& ahead);

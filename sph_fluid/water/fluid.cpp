@@ -23,6 +23,12 @@ std::vector<std::size_t> Fluid::particles_by_body() const {
   for (const Group& group : self_->all.groups) counts.push_back(group.end - group.begin);
   return counts;
 }
+std::vector<std::size_t> Fluid::particles_by_body_at_start() const {
+  std::vector<std::size_t> counts;
+  for (const Group& group : self_->all.groups) counts.push_back(group.laid);
+  return counts;
+}
+long long Fluid::updates() const { return self_->clock.updates; }
 std::size_t Fluid::memory_bytes() const {
   return self_->all.memory_bytes() + self_->local_steps.memory_bytes() + self_->evaluation.memory_bytes();
 }

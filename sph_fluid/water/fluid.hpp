@@ -80,8 +80,10 @@ class Fluid {
   const Settings& settings() const;
   std::size_t particle_count() const;
   std::size_t wall_particle_count() const;
-  /// Particles of each body, in the scene's order.
+  /// Particles of each body, in the scene's order; gas that expands splits its own (split.hpp).
   std::vector<std::size_t> particles_by_body() const;
+  std::vector<std::size_t> particles_by_body_at_start() const;
+  long long updates() const;  ///< of particles, over all steps
   std::size_t memory_bytes() const;
   double time() const;
   long steps() const;

@@ -24,7 +24,7 @@ void step_leapfrog(Water& water, double dt) {
     water.drift(all, dt);
     water.cross_mirrors(all);
   }
-  water.evaluate(all, {.time = water.clock.time + dt, .half = 0.5 * dt, .bend = bend_of(dt, all.last_step)});
+  water.evaluate(all, {.time = water.clock.time + dt, .half = 0.5 * dt, .bend = bend_of(dt, all.last_step), .whole = true});
   if (!all.healthy) {
     const std::string what = what_is_wrong(all, water.settings, water.clock);
     stand_half_way(water, dt);

@@ -149,7 +149,7 @@ void LocalSteps::step(double dt) {
   scatter();
   water_.cross_mirrors(all);
   if (near_.meets_walls) water_.walls.show(after);
-  water_.evaluate_or_stop(all, {.time = water_.clock.time + dt, .half = 0.5 * dt, .bend = bend});
+  water_.evaluate_or_stop(all, {.time = water_.clock.time + dt, .half = 0.5 * dt, .bend = bend, .whole = true});
   const auto timer = water_.timers.measure("integration");
   water_.half_kick(all, dt);
   wall_force_ = sum_of(all.wall_force, near_.wall_force);

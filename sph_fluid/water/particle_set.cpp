@@ -1,5 +1,6 @@
 #include "sph_fluid/water/particle_set.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -13,6 +14,15 @@ const char* remedy(const Settings& settings) {
 }
 
 }  // namespace
+
+double share_burnt(const Group& group, std::uint32_t k, double time) {
+  if (k >= group.lighting.size()) return 1.0;  // only what has burnt splits
+  const materials::ProgrammedBurn& burn = *group.body->burn;
+  // The front is timed from where the zone was at the start.
+  const double since = time - group.lighting[k];
+  // The front lies in the middle of the ramp: particles see half of the burn from either side, and no delay.
+  return burn.width > 0 ? std::clamp(0.5 + since * burn.D / burn.width, 0.0, 1.0) : since >= 0 ? 1.0 : 0.0;
+}
 
 std::size_t ParticleSet::memory_bytes() const {
   std::size_t bytes = particles.memory_bytes() + images.memory_bytes() + blocks.memory_bytes();
@@ -32,6 +42,8 @@ void ParticleSet::visit_state(StateVisitor& state) {
   state("pairs", choice);
   for (std::size_t g = 0; g < groups.size(); ++g)
     state.part("body " + std::to_string(g), [&] {
+      state("first", groups[g].begin);
+      state("end", groups[g].end);
       state("fast", groups[g].fast);
       state("largest h", groups[g].h_max);
     });

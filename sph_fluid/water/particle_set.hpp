@@ -19,6 +19,7 @@ struct Group {
   const Body* body = nullptr;
   std::uint32_t begin = 0, end = 0;
   std::uint32_t first_id = 0;
+  std::uint32_t laid = 0;        // particles at the start
   bool fast = false;             // does it take substeps (local_steps.hpp)?
   double spacing = 0, h0 = 0;    // [m]
   double h_max = 0;              // [m], the largest at present
@@ -27,6 +28,9 @@ struct Group {
   std::vector<double> lighting;  // burning charges only, by id - first_id [s]
   CellList cells;
 };
+
+/// Share of particle k = id - first_id of a burning charge over which the front has gone by `time` [s].
+double share_burnt(const Group& group, std::uint32_t k, double time);
 
 struct ParticleSet {
   Particles particles;
@@ -61,6 +65,7 @@ inline constexpr double fastest = 1e7;
 struct Clock {
   double time = 0;  ///< [s]
   long steps = 0;
+  long long updates = 0;  ///< of particles: their number, step by step
 };
 
 inline Vec3 place_of(const Particles& p, std::size_t i) { return {p.x[i], p.y[i], p.z[i]}; }

@@ -50,7 +50,7 @@ void step_ssp_rk3(Water& water, double dt) {
     water.require(advance(water, dt, share, weight), water.all);
     if (at < 1.0) water.walls.show_between(before, after, dt, at);
     else water.walls.show(after);
-    water.evaluate_or_stop(water.all, {.time = water.clock.time + at * dt});
+    water.evaluate_or_stop(water.all, {.time = water.clock.time + at * dt, .whole = &share == &stages[2].share});
   }
 }
 

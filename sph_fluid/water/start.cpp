@@ -125,6 +125,7 @@ void Fluid::Implementation::fill(std::vector<BodyParticles> bodies) {
       if (body.burn) group.lighting.push_back(body.burn->lighting_time(x));
     }
     group.end = at;
+    group.laid = group.end - group.begin;
     group.material = std::uint32_t(b);
     for (std::size_t earlier = b; earlier-- > 0;)
       if (same_material(settings.bodies[earlier].material, body.material)) group.material = std::uint32_t(earlier);

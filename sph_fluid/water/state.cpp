@@ -18,6 +18,7 @@ void Fluid::Implementation::visit_state(StateVisitor& state) {
   if (!evaluated) evaluate(all, {.time = clock.time});
   state("time", clock.time);
   state("steps", clock.steps);
+  state("updates", clock.updates);
   state("dissipated", exchange.dissipated);
   state("wall work", exchange.wall_work);
   state("radiated", exchange.radiated);

@@ -17,6 +17,7 @@ void Fluid::Implementation::step(double dt) {
   clock.time += dt;
   all.last_step = dt;
   ++clock.steps;
+  clock.updates += (long long)(all.particles.size());
   limits_known = false;
 }
 

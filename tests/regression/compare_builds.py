@@ -31,6 +31,8 @@ FURTHER = {
     "colliding_rings/updated.toml": {"resolution.spacing": 0.002, "end_time": 1e-3},
     "free_field/axisymmetric.toml": {"resolution.spacing": 0.002, "end_time": 30e-6},
     "free_field/bubble.toml": {"resolution.spacing": 1e-4, "end_time": 200e-6},
+    "free_field/deep_bubble.toml": {"resolution.spacing": 0.003, "end_time": 60e-6, "start.time": 12e-6},
+    "free_field/deep_bubble_radius.toml": {"resolution.spacing": 1e-4, "end_time": 200e-6},
     "free_field/radial.toml": {"resolution.spacing": 1e-4, "end_time": 30e-6},
     "free_field/similitude.toml": {"resolution.spacing": 0.001, "end_time": 200e-6},
     "free_field/tnt.toml": {"resolution.spacing": 0.001, "end_time": 200e-6},

@@ -186,7 +186,8 @@ def check_summary(case, summary):
         if value is not None and not abs(value) < limit:
             found.append(f"{key} is {value:.3g}, its limit {limit:g}")
     updates = summary["particles"] * summary["steps"]
-    if summary["particle_updates"] < updates or not case.solids and summary["particle_updates"] > updates:  # solids: smaller steps
+    more = sum(each["particles"] - each["particles_at_start"] for each in summary.get("splits", [])) * summary["steps"]
+    if summary["particle_updates"] < updates - more or not case.solids and summary["particle_updates"] > updates:  # solids: smaller steps
         found.append("particle_updates is not particles times steps")
     for key in ("steps", "cpu_time_s", "wall_time_s", "peak_memory_bytes"):
         if not summary[key] > 0:

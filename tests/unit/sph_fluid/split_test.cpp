@@ -1,0 +1,212 @@
+// Gas that expands splits its particles: what that conserves, where the halves stand, and that nothing else depends on it.
+#include "sph_fluid/water/split.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "scenes.hpp"
+
+namespace undex::sph::testing {
+namespace {
+
+struct Sums {
+  double mass = 0, kinetic = 0, internal = 0;
+  Vec3 moment = Vec3::Zero(), momentum = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+Sums sums_of(const ParticleSet& set, const Group& group) {
+  const Particles& p = set.particles;
+  Sums sums;
+  for (std::uint32_t i = group.begin; i < group.end; ++i) {
+    const Vec3 x = place_of(p, i), v(p.vx[i], p.vy[i], p.vz[i]);
+    sums.mass += p.mass[i];
+    sums.kinetic += 0.5 * p.mass[i] * v.squaredNorm();
+    sums.internal += p.mass[i] * p.energy[i];
+    sums.moment += p.mass[i] * x;
+    sums.momentum += p.mass[i] * v;
+    sums.angular += p.mass[i] * x.cross(v);
+  }
+  return sums;
+}
+
+/// Every total of every body, whoever splits; and what is not split is as it was.
+TEST(Split, KeepsAllTotalsOfBodies) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const Body body;
+  ParticleSet set;
+  Particles& p = set.particles;
+  p.resize(300, true);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    for (auto* a : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz}) (*a)[i] = any(engine);
+    p.rho[i] = 2.0 + any(engine);
+    p.mass[i] = 2.0 + any(engine);
+    p.energy[i] = 1e5 * any(engine);
+    p.id[i] = 299 - i;
+  }
+  p.make_room(SecondRow::gradient, 1.0, /*of_stages=*/true, /*rings=*/true);
+  for (const auto& [begin, end] : {std::pair(0u, 100u), std::pair(100u, 180u), std::pair(180u, 300u)}) {
+    Group group;
+    group.body = &body;
+    group.begin = begin;
+    group.end = end;
+    set.groups.push_back(group);
+  }
+  std::vector<Sums> before;
+  for (const Group& group : set.groups) before.push_back(sums_of(set, group));
+  const Particles old = p;
+
+  std::vector<Split> splits;
+  for (const std::uint32_t i : {0u, 1u, 40u, 99u, 180u, 298u, 299u})
+    splits.push_back({i, Vec3(any(engine), any(engine), any(engine))});
+  split(set, splits);
+
+  ASSERT_EQ(p.size(), 307u);
+  EXPECT_EQ(set.groups[0].end, 104u);
+  EXPECT_EQ(set.groups[1].begin, 104u);
+  EXPECT_EQ(set.groups[1].end, 184u);
+  EXPECT_EQ(set.groups[2].end, 307u);
+  for (std::size_t g = 0; g < 3; ++g) {
+    const Sums after = sums_of(set, set.groups[g]);
+    EXPECT_NEAR(after.mass, before[g].mass, 1e-12);
+    EXPECT_NEAR(after.kinetic, before[g].kinetic, 1e-12);
+    EXPECT_NEAR(after.internal, before[g].internal, 1e-7);
+    EXPECT_LT((after.moment - before[g].moment).norm(), 1e-12);
+    EXPECT_LT((after.momentum - before[g].momentum).norm(), 1e-12);
+    EXPECT_LT((after.angular - before[g].angular).norm(), 1e-12);
+  }
+  std::vector<std::uint32_t> ids = p.id;
+  std::sort(ids.begin(), ids.end());
+  for (std::uint32_t k = 0; k < ids.size(); ++k) EXPECT_EQ(ids[k], k);
+  for (std::uint32_t i = 0; i < p.size(); ++i) {
+    const std::uint32_t id = p.id[i];
+    if (id >= 300) continue;
+    const std::uint32_t was = 299 - id;
+    EXPECT_EQ(p.rho[i], old.rho[was]);
+    const bool halved = std::any_of(splits.begin(), splits.end(), [&](const Split& each) { return each.particle == was; });
+    EXPECT_EQ(p.mass[i], (halved ? 0.5 : 1.0) * old.mass[was]);
+    // The state that a refused step goes back to moves along.
+    EXPECT_NEAR(p.start.x[i] - old.start.x[was], p.x[i] - old.x[was], 1e-15);
+  }
+}
+
+/// Gas that expands into nothing beside a wall and symmetry planes, in water's company.
+Settings expanding(int dimension, bool rings, int threads = 1) {
+  Settings settings;
+  settings.dimension = dimension;
+  settings.axisymmetric = rings;
+  settings.lattice.spacing = dimension == 1 ? 0.002 : 0.01;
+  settings.symmetry.axis = {true, dimension == 3, false};
+  const double high = dimension > 1 ? 0.08 : 0.0, deep = dimension > 2 ? 0.08 : 0.0, low = dimension > 1 ? -0.02 : 0.0;
+  const Shape ball = box(Vec3(0, low, 0), Vec3(0.04, high / 2, deep / 2));
+  Shape water = box(Vec3(0, low, 0), Vec3(0.08, high, deep));
+  water.removed = {ball.base};
+  settings.bodies = {body("gas", ball, "bubble-gas"), body("water", water, "water-tait")};
+  settings.bodies[0].variable_h = true;
+  settings.bodies[0].pressure = 3e8;
+  settings.bodies[0].density = 200;
+  settings.bodies[1].pressure = 1e5;
+  if (dimension > 1) {
+    Wall wall = box_wall(Vec3(-1, -0.02, -1), Vec3(1, 1, 1), FaceCondition::open);
+    wall.faces["y_low"] = FaceCondition::free_slip;
+    settings.walls = {wall};
+  }
+  settings.numerics.threads = threads;
+  return settings;
+}
+
+struct Scene {
+  int dimension;
+  bool rings;
+};
+class Expanding : public ::testing::TestWithParam<Scene> {};
+
+TEST_P(Expanding, ConservesAndStaysWhereItIs) {
+  const auto [dimension, rings] = GetParam();
+  Fluid fluid(expanding(dimension, rings));
+  const std::vector<BodyTotals> before = fluid.totals();
+  const Ledger start = fluid.ledger();
+  const std::size_t laid = fluid.particle_count();
+  for (int k = 0; k < 150; ++k) fluid.step(fluid.step_limit().step);
+  const std::vector<BodyTotals> after = fluid.totals();
+  EXPECT_GT(fluid.particle_count(), laid + 5) << "nothing has split";
+  EXPECT_EQ(fluid.particles_by_body()[1], fluid.particles_by_body_at_start()[1]) << "water does not split";
+  for (std::size_t b = 0; b < 2; ++b) EXPECT_NEAR(after[b].mass, before[b].mass, 1e-13 * before[b].mass);
+  const Ledger end = fluid.ledger();
+  EXPECT_NEAR(total(end), total(start), 3e-3 * total(start));
+  for (const Vec3& x : by_id(fluid, "position")) {
+    EXPECT_GT(x[0], 0.0);
+    if (dimension == 3) EXPECT_GT(x[1], -1e-12);
+    if (dimension > 1) EXPECT_GT(x[1], -0.02);
+  }
+  std::vector<double> ids = fluid.field("id");
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t k = 0; k < ids.size(); ++k) EXPECT_EQ(ids[k], double(k));
+}
+
+/// No particle of gas stays twice as large as its cell, but for the last steps.
+TEST_P(Expanding, KeepsItsSpacing) {
+  const auto [dimension, rings] = GetParam();
+  Fluid fluid(expanding(dimension, rings));
+  for (int k = 0; k < 150; ++k) fluid.step(fluid.step_limit().step);
+  const std::vector<double> h = fluid.field("smoothing_length"), material = fluid.field("material");
+  const double h0 = fluid.settings().numerics.eta * fluid.settings().lattice.spacing;
+  for (std::size_t i = 0; i < h.size(); ++i)
+    if (material[i] == 0.0) EXPECT_LT(h[i], 1.1 * std::pow(2.0, 1.0 / dimension) * h0);
+}
+
+INSTANTIATE_TEST_SUITE_P(InAllDimensions, Expanding,
+                         ::testing::Values(Scene{1, false}, Scene{2, false}, Scene{2, true}, Scene{3, false}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.dimension) + (info.param.rings ? "_rings" : "_dimensions");
+                         });
+
+TEST(Split, DoesNotDependOnTheNumberOfThreads) {
+  std::vector<double> places, ids;
+  for (const int threads : {1, 3}) {
+    Fluid fluid(expanding(2, false, threads));
+    for (int k = 0; k < 120; ++k) fluid.step(fluid.step_limit().step);
+    if (threads == 1) {
+      places = fluid.field("position");
+      ids = fluid.field("id");
+      ASSERT_GT(ids.size(), fluid.particles_by_body_at_start()[0] + fluid.particles_by_body_at_start()[1]);
+      continue;
+    }
+    EXPECT_EQ(fluid.field("position"), places);
+    EXPECT_EQ(fluid.field("id"), ids);
+  }
+}
+
+TEST(Split, EndsAtItsLimit) {
+  Settings settings = expanding(1, false);
+  settings.bodies[0].split = 2;
+  Fluid fluid(settings);
+  for (int k = 0; k < 600; ++k) fluid.step(fluid.step_limit().step);
+  EXPECT_EQ(fluid.particles_by_body()[0], 2 * fluid.particles_by_body_at_start()[0]);
+  settings.bodies[0].split = 1;
+  Fluid whole(settings);
+  for (int k = 0; k < 600; ++k) whole.step(whole.step_limit().step);
+  EXPECT_EQ(whole.particles_by_body()[0], whole.particles_by_body_at_start()[0]);
+}
+
+/// With the Runge-Kutta method and with steps of their own.
+TEST(Split, HappensWithEveryIntegrator) {
+  for (const bool local : {false, true}) {
+    Settings settings = expanding(2, false);
+    settings.numerics.integrator = local ? Integrator::leapfrog : Integrator::ssp_rk3;
+    settings.numerics.local_steps = local;
+    Fluid fluid(settings);
+    const Ledger start = fluid.ledger();
+    while (fluid.time() < 4e-5) fluid.step(fluid.step_limit().step);
+    EXPECT_GT(fluid.particles_by_body()[0], fluid.particles_by_body_at_start()[0]);
+    EXPECT_NEAR(total(fluid.ledger()), total(start), 3e-3 * total(start));
+  }
+}
+
+}  // namespace
+}  // namespace undex::sph::testing
