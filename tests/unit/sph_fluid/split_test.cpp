@@ -2,12 +2,10 @@
 #include "sph_fluid/water/split.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
 #include <random>
-#include <set>
 
 #include "scenes.hpp"
 
@@ -124,6 +122,8 @@ struct Scene {
   int dimension;
   bool rings;
 };
+/// In one dimension gas has only one way to grow.
+int steps_of(int dimension) { return dimension == 1 ? 2000 : 150; }
 class Expanding : public ::testing::TestWithParam<Scene> {};
 
 TEST_P(Expanding, ConservesAndStaysWhereItIs) {
@@ -132,7 +132,7 @@ TEST_P(Expanding, ConservesAndStaysWhereItIs) {
   const std::vector<BodyTotals> before = fluid.totals();
   const Ledger start = fluid.ledger();
   const std::size_t laid = fluid.particle_count();
-  for (int k = 0; k < 150; ++k) fluid.step(fluid.step_limit().step);
+  for (int k = 0; k < steps_of(dimension); ++k) fluid.step(fluid.step_limit().step);
   const std::vector<BodyTotals> after = fluid.totals();
   EXPECT_GT(fluid.particle_count(), laid + 5) << "nothing has split";
   EXPECT_EQ(fluid.particles_by_body()[1], fluid.particles_by_body_at_start()[1]) << "water does not split";
@@ -153,7 +153,7 @@ TEST_P(Expanding, ConservesAndStaysWhereItIs) {
 TEST_P(Expanding, KeepsItsSpacing) {
   const auto [dimension, rings] = GetParam();
   Fluid fluid(expanding(dimension, rings));
-  for (int k = 0; k < 150; ++k) fluid.step(fluid.step_limit().step);
+  for (int k = 0; k < steps_of(dimension); ++k) fluid.step(fluid.step_limit().step);
   const std::vector<double> h = fluid.field("smoothing_length"), material = fluid.field("material");
   const double h0 = fluid.settings().numerics.eta * fluid.settings().lattice.spacing;
   for (std::size_t i = 0; i < h.size(); ++i)
@@ -183,7 +183,7 @@ TEST(Split, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Split, EndsAtItsLimit) {
-  Settings settings = expanding(1, false);
+  Settings settings = expanding(2, false);
   settings.bodies[0].split = 2;
   Fluid fluid(settings);
   for (int k = 0; k < 600; ++k) fluid.step(fluid.step_limit().step);
@@ -202,7 +202,7 @@ TEST(Split, HappensWithEveryIntegrator) {
     settings.numerics.local_steps = local;
     Fluid fluid(settings);
     const Ledger start = fluid.ledger();
-    while (fluid.time() < 4e-5) fluid.step(fluid.step_limit().step);
+    while (fluid.time() < 6e-4) fluid.step(fluid.step_limit().step);
     EXPECT_GT(fluid.particles_by_body()[0], fluid.particles_by_body_at_start()[0]);
     EXPECT_NEAR(total(fluid.ledger()), total(start), 3e-3 * total(start));
   }
