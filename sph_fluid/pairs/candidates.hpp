@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
+#include "sph_fluid/pairs/single_rows.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -213,6 +214,23 @@ class CandidateList {
     }
   }
 
+  /// The same from rows in single precision. Without `tail` what stands there is not to be read.
+  UNDEX_INLINE void fill_single(std::uint32_t begin, const SingleRows& rows, bool tail, int image) {
+    using Layout = SingleLayout<Second>;
+    for (std::uint32_t c = begin; c < size; c += W) {
+      const std::uint32_t* which = scratch_.index + c;
+      T* to = block(c / W);
+      fill_eights<0>(to, rows.main, Layout::main, which);
+      if constexpr (Layout::main > Layout::tile) {
+        fill_eights<Layout::tile>(to, rows.main + Layout::tile, Layout::main, which);
+        if (tail) fill_eights<Layout::main>(to, rows.tail, Layout::tail, which);
+      }
+      if (image == 0) continue;
+      turn_signs<FluidRow>(to + state, image);
+      turn_signs<Second>(to + second, image);
+    }
+  }
+
   /// Adds what candidates begin..real have received to the rows of the particles that they are, mirrored back.
   template <class Sums, class Row>
   UNDEX_INLINE void scatter_sums(std::uint32_t begin, std::uint32_t real, Row* rows, int image) {
@@ -268,6 +286,41 @@ class CandidateList {
       for (int k = 0; k < D; ++k) store_converted(to + (first + k) * W, tile[k]);
       fill_tiles<first + D, end>(to, rows, which);
     }
+  }
+
+  /// Where number n of main row and tail goes; beyond the last none: -1.
+  static constexpr int place_of(int n) {
+    using Layout = SingleLayout<Second>;
+    if (Layout::alone || n < Layout::state) return state + n * W;
+    if (n == Layout::main) return state + Layout::state * W;
+    const int k = n < Layout::main ? n - Layout::state : n - Layout::main - 1 + Layout::in_main;
+    return k < length_of<Second> ? second + k * W : -1;
+  }
+
+  /// Eight numbers of a vector of rows that are `length` long, the first of them number `first` of main row and tail.
+  template <int first>
+  UNDEX_INLINE void fill_eights(T* to, const float* rows, int length, const std::uint32_t* which) {
+#if UNDEX_VECTOR_BYTES >= 32
+    Vec<float> tile[8];
+#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k)
+      tile[k] = load_eights(rows + std::size_t(which[k]) * length, rows + std::size_t(which[(k + 8) % W]) * length);
+    transpose_eights(tile);
+#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k)
+      if (place_of(first + k) >= 0) store(to + place_of(first + k), tile[k]);
+#else
+    for (int k = 0; k < 8; ++k)
+      for (int l = 0; l < W; ++l)
+        if (place_of(first + k) >= 0) to[place_of(first + k) + l] = rows[std::size_t(which[l]) * length + k];
+#endif
+  }
+
+  /// Of a block's numbers those that change their sign in the mirror.
+  template <class Row>
+  UNDEX_INLINE static void turn_signs(T* to, int image) {
+    for (int k = 0; k < length_of<Row>; ++k)
+      if (__builtin_popcount(unsigned(Row::parity(k) & image)) & 1) store(to + k * W, -load(to + k * W));
   }
 
   Scratch& scratch_;

@@ -127,6 +127,10 @@ struct PairKind {
   double least_pressure;
 };
 
+/// Do the pairs of a pass read rows in single precision?
+template <class Pass, class T>
+inline constexpr bool packed = same_type<T, float>&& SingleLayout<typename Pass::State::Second>::serves;
+
 /// One pass over one cluster: its candidates, the pairs with them, and the sums.
 template <class Kernel, template <class> class Scheme, class T>
 class ClusterWork {
@@ -139,6 +143,7 @@ class ClusterWork {
   using Second = typename State::Second;
   static constexpr bool with_second = !same_type<Second, NoRow>;
   static constexpr bool rings = over_rings<Pass>;
+  static constexpr bool single = packed<Pass, T>;
   /// Candidates that are seen across the same symmetry planes.
   struct Piece {
     std::uint32_t begin, real;
@@ -224,7 +229,7 @@ class ClusterWork {
       }
       scan_grid(other.grid, x, y, z, box, reach, Pass::symmetric ? next : 0, list_);
       pieces_[piece_count_++] = {begin, list_.size, image};
-      fill(begin, images ? list_.size - begin : own, images, image, reach);
+      fill(begin, images ? list_.size - begin : own, images, image, reach, !kind.constant_h || kind.gas);
     });
     // Images reach beyond the wall that they stand behind.
     looks_ = beside_thin_wall_ || (images && in_.sight.self != nullptr);
@@ -290,15 +295,20 @@ class ClusterWork {
 
   const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
 
-  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
-  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
+  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half. `gas`: do
+  /// they read what only pairs with gas do?
+  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach, [[maybe_unused]] bool gas) {
     const std::uint32_t real = list_.size;
     if (real == begin) return;
     list_.pad(begin);
     list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
     if (Pass::symmetric) list_.fill_weights(begin, halves);
-    list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
-    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
+    if constexpr (single) {
+      list_.fill_single(begin, in_.single[images], gas || length_of<Second> > length_of<GradientRow>, image);
+    } else {
+      list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
+      if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
+    }
     if constexpr (rings) list_.template fill_rows<List::ring>(begin, images ? in_.images.rings : in_.rings, image);
   }
 
@@ -408,29 +418,22 @@ class ClusterWork {
   int piece_count_ = 0;
 };
 
-/// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away
-/// (blocks.hpp).
-void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
-  const Block& me = in.blocks[b];
-  for (int dz = -2; dz <= 2; ++dz)
-    for (int dy = -2; dy <= 2; ++dy) {
-      const int iy = me.iy + dy, iz = me.iz + dz;
-      if (iy < 0 || iz < 0 || iy >= in.columns_y || iz >= in.columns_z) continue;
-      const std::uint32_t other = in.rank[std::size_t(iz) * in.columns_y + iy];
-      if (other >= b) continue;
-      for (int spins = 0; !__atomic_load_n(&in.finished[other], __ATOMIC_ACQUIRE); ++spins)
-        spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
-    }
+/// Waits until the blocks that come before this one and may add to the same particles are done.
+void wait_for_neighbours(const PairInput& in, const Block& block) {
+  for (std::uint32_t k = block.first_wait; k < block.last_wait; ++k)
+    for (int spins = 0; !__atomic_load_n(&in.finished[in.waits[k]], __ATOMIC_ACQUIRE); ++spins)
+      spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
 }
 
 template <LoopKernel Kernel, template <class> class Scheme, class T>
 requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
+  if constexpr (packed<Scheme<T>, T>) pack<typename Scheme<T>::State::Second>(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
 #pragma omp parallel for schedule(monotonic : dynamic, 1)
   for (std::uint32_t b = 0; b < in.block_count; ++b) {
-    if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
+    if (Scheme<T>::symmetric) wait_for_neighbours(in, in.blocks[b]);
     long long met = 0;
     for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
       met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();

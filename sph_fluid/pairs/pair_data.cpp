@@ -43,4 +43,24 @@ void release(Scratch& s) {
   s = {};
 }
 
+void grow(SingleRows& rows, std::size_t particles, int main, int tail) {
+  const auto enlarge = [&](float*& data, std::size_t& bytes, int numbers) {
+    const std::size_t wanted = particles * numbers * sizeof(float);
+    if (wanted <= bytes) return;
+    std::free(data);
+    bytes = (wanted + wanted / 8 + 63) / 64 * 64;
+    data = static_cast<float*>(std::aligned_alloc(64, bytes));
+    if (data == nullptr) bytes = 0;
+    if (data == nullptr) throw std::bad_alloc();
+  };
+  enlarge(rows.main, rows.main_bytes, main);
+  enlarge(rows.tail, rows.tail_bytes, tail);
+}
+
+void release(SingleRows& rows) {
+  std::free(rows.main);
+  std::free(rows.tail);
+  rows = {};
+}
+
 }  // namespace undex::sph

@@ -139,6 +139,51 @@ UNDEX_INLINE void transpose(Vec<double> (&r)[lanes<double>]) {
 #undef UNDEX_SWAP
 }
 
+#if UNDEX_VECTOR_BYTES >= 32
+/// r[k] has the eight numbers of row k (and in its upper half, where there is one, those of row k + 8); it becomes number k of
+/// all rows.
+UNDEX_INLINE void transpose_eights(Vec<float> (&r)[8]) {
+#if UNDEX_VECTOR_BYTES == 64
+#define UNDEX_EACH_HALF(a, b, c, d, e, f, g, h) a, b, c, d, e, f, g, h, a + 8, b + 8, c + 8, d + 8, e + 8, f + 8, g + 8, h + 8
+#define UNDEX_OTHER 16
+#else
+#define UNDEX_EACH_HALF(a, b, c, d, e, f, g, h) a, b, c, d, e, f, g, h
+#define UNDEX_OTHER 8
+#endif
+  constexpr int o = UNDEX_OTHER;
+  Vec<float> s[8], t[8];
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2) {
+    s[k] = __builtin_shufflevector(r[k], r[k + 1], UNDEX_EACH_HALF(0, o, 1, o + 1, 4, o + 4, 5, o + 5));
+    s[k + 1] = __builtin_shufflevector(r[k], r[k + 1], UNDEX_EACH_HALF(2, o + 2, 3, o + 3, 6, o + 6, 7, o + 7));
+  }
+#pragma GCC unroll 2
+  for (int k = 0; k < 8; k += 4)
+#pragma GCC unroll 2
+    for (int m = 0; m < 2; ++m) {
+      t[k + 2 * m] = __builtin_shufflevector(s[k + m], s[k + 2 + m], UNDEX_EACH_HALF(0, 1, o, o + 1, 4, 5, o + 4, o + 5));
+      t[k + 2 * m + 1] = __builtin_shufflevector(s[k + m], s[k + 2 + m], UNDEX_EACH_HALF(2, 3, o + 2, o + 3, 6, 7, o + 6, o + 7));
+    }
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {
+    r[k] = __builtin_shufflevector(t[k], t[k + 4], UNDEX_EACH_HALF(0, 1, 2, 3, o, o + 1, o + 2, o + 3));
+    r[k + 4] = __builtin_shufflevector(t[k], t[k + 4], UNDEX_EACH_HALF(4, 5, 6, 7, o + 4, o + 5, o + 6, o + 7));
+  }
+#undef UNDEX_EACH_HALF
+#undef UNDEX_OTHER
+}
+
+/// The eight numbers of one row; of two.
+UNDEX_INLINE Vec<float> load_eights(const float* a, [[maybe_unused]] const float* b) {
+#if UNDEX_VECTOR_BYTES == 64
+  const __m512 low = _mm512_castps256_ps512(_mm256_load_ps(a));
+  return (Vec<float>)_mm512_insertf32x8(low, _mm256_load_ps(b), 1);
+#else
+  return (Vec<float>)_mm256_load_ps(a);
+#endif
+}
+#endif
+
 /// A vector of sums in double, its upper half added to the lower (or the larger of the two) where it was in single.
 template <bool by_maximum>
 UNDEX_INLINE Vec<double> halved(Vec<double> a) {

@@ -60,6 +60,7 @@ Evaluation::Evaluation(const Settings& settings, const MovingWalls& walls, Radia
 
 Evaluation::~Evaluation() {
   for (Scratch& s : scratch_) release(s);
+  for (SingleRows& rows : single_) release(rows);
 }
 
 void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
@@ -88,7 +89,7 @@ void Evaluation::sort(ParticleSet& set) {
   for (Group& group : set.groups) {
     const double stretch = group.body->variable_h ? group.h_max / group.h0 : 1.0;
     try {
-      group.cells.build(p.x.data(), p.y.data(), p.z.data(), group.begin, group.end, 2.0 * group.spacing * stretch);
+      group.cells.build(p.x.data(), p.y.data(), p.z.data(), group.begin, group.end, 2.0 * group.spacing * stretch, p.id.data());
     } catch (const std::domain_error&) {
       throw NumericalStop(what_is_wrong(set, settings_, clock_));
     }
@@ -114,7 +115,7 @@ void Evaluation::equation_of_state(ParticleSet& set, const Ahead& ahead) {
     h_max = std::max(h_max, group.h_max);
   }
   set.reach = loops_.support * h_max;
-  set.blocks.build(set.views, set.reach);
+  set.blocks.build(set.views, set.reach, threads_);
   signals_.find(set);
 }
 
@@ -268,6 +269,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   in.beta = settings_.numerics.beta;
   set.blocks.describe(in);
   in.scratch = scratch_.data();
+  in.single = single_;
   return in;
 }
 
@@ -335,6 +337,12 @@ void Evaluation::finish_rates(ParticleSet& set) {
     }
     set.healthy = set.healthy && ok;
   }
+}
+
+std::size_t Evaluation::memory_bytes() const {
+  std::size_t bytes = lining_.memory_bytes();
+  for (const SingleRows& rows : single_) bytes += rows.main_bytes + rows.tail_bytes;
+  return bytes;
 }
 
 void Evaluation::visit_state(StateVisitor& state) {

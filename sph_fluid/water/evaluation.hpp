@@ -45,7 +45,7 @@ class Evaluation {
   long long interactions() const { return interactions_; }
   void count_anew() { interactions_ = 0; }
   void visit_state(StateVisitor& state);
-  std::size_t memory_bytes() const { return lining_.memory_bytes(); }
+  std::size_t memory_bytes() const;
 
  private:
   void sort(ParticleSet& set);
@@ -75,6 +75,7 @@ class Evaluation {
   Signals signals_;
   int threads_;
   std::vector<Scratch> scratch_;
+  SingleRows single_[2];
   long long interactions_ = 0;
 };
 

@@ -151,9 +151,10 @@ inline Result run(const Sample& sample) {
   }
 
   BlockOrder blocks;
-  blocks.build(groups, loops.support * h_largest);
   const int threads = sample.threads > 0 ? sample.threads : omp_get_max_threads();
+  blocks.build(groups, loops.support * h_largest, threads);
   std::vector<Scratch> scratch(threads);
+  SingleRows single[2];
   PairInput in{};
   in.dimension = sample.dimension;
   in.kernel_scale = 1.0;
@@ -182,6 +183,7 @@ inline Result run(const Sample& sample) {
   in.beta = sample.beta;
   blocks.describe(in);
   in.scratch = scratch.data();
+  in.single = single;
 
   std::vector<SumRow> sums(n);
   std::vector<ForceRow> forces(m);
@@ -194,6 +196,7 @@ inline Result run(const Sample& sample) {
   loops.rates(in, out);
   omp_set_num_threads(before);
   for (Scratch& s : scratch) release(s);
+  for (SingleRows& rows : single) release(rows);
   for (std::size_t i = 0; i < n; ++i) {
     const double specific = 1.0 / rows[i].rho;
     Rate rate;
