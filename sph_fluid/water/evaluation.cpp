@@ -53,14 +53,9 @@ Evaluation::Evaluation(const Settings& settings, const MovingWalls& walls, Radia
       kernel_scale_(1.0 / lattice_factor(settings.numerics.kernel, settings.numerics.eta, settings.dimension)),
       slip_faces_(sph::slip_faces(settings)),
       threads_(settings.numerics.threads > 0 ? settings.numerics.threads : machine_threads),
-      scratch_(threads_) {
+      memory_(threads_) {
   omp_set_num_threads(threads_);
   if (settings.axisymmetric) rings_.emplace(settings.numerics.kernel, settings.numerics.eta);
-}
-
-Evaluation::~Evaluation() {
-  for (Scratch& s : scratch_) release(s);
-  for (SingleRows& rows : single_) release(rows);
 }
 
 void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
@@ -268,8 +263,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   in.alpha = settings_.numerics.alpha;
   in.beta = settings_.numerics.beta;
   set.blocks.describe(in);
-  in.scratch = scratch_.data();
-  in.single = single_;
+  memory_.describe(in);
   return in;
 }
 
@@ -337,12 +331,6 @@ void Evaluation::finish_rates(ParticleSet& set) {
     }
     set.healthy = set.healthy && ok;
   }
-}
-
-std::size_t Evaluation::memory_bytes() const {
-  std::size_t bytes = lining_.memory_bytes();
-  for (const SingleRows& rows : single_) bytes += rows.main_bytes + rows.tail_bytes;
-  return bytes;
 }
 
 void Evaluation::visit_state(StateVisitor& state) {
