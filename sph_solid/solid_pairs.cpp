@@ -24,7 +24,11 @@ constexpr double contact_damping = 0.3;
 }  // namespace
 
 SolidPairs::SolidPairs(const Settings& settings, const sph::Settings& around, std::vector<Range> ranges)
-    : settings_(settings), around_(around), ranges_(std::move(ranges)), cells_(ranges_.size()) {
+    : settings_(settings),
+      around_(around),
+      ranges_(std::move(ranges)),
+      cells_(ranges_.size()),
+      memory_(std::max(omp_get_max_threads(), around.numerics.threads)) {
   const std::uint32_t n = ranges_.back().end;
   for (const Range& range : ranges_) updated_ = updated_ || range.updated;
   particle_.resize(n);
@@ -34,11 +38,6 @@ SolidPairs::SolidPairs(const Settings& settings, const sph::Settings& around, st
   if (updated_) deformation_.resize(n);
   sums_.resize(n);
   if (updated_ && around.axisymmetric) axis_width_ = width_of_axis(settings.numerics.eta);
-  scratch_.resize(std::max(omp_get_max_threads(), around.numerics.threads));
-}
-
-SolidPairs::~SolidPairs() {
-  for (Scratch& s : scratch_) release(s);
 }
 
 void SolidPairs::run(void (*pass)(const PairInput&, const PairOutput&), const PairInput& in) {
@@ -127,7 +126,7 @@ void SolidPairs::pack(const SolidParticles& p) {
       row.volume = p.mass[particle_[k]] / (p.rho[particle_[k]] * ring(p, range, particle_[k]));
       row.vz = x_[k];
     }
-  blocks_.build(views_, reach);
+  blocks_.build(views_, reach, omp_get_max_threads());
   interactions_.assign(blocks_.block_count(), 0);
 }
 
@@ -235,7 +234,7 @@ PairInput SolidPairs::input(const std::vector<GroupView>& views) {
   in.alpha = settings_.numerics.alpha;
   in.beta = settings_.numerics.beta;
   blocks_.describe(in);
-  in.scratch = scratch_.data();
+  memory_.describe(in);
   return in;
 }
 
@@ -332,7 +331,7 @@ void SolidPairs::write_back(SolidParticles& p) const {
 std::size_t SolidPairs::memory_bytes() const {
   std::size_t bytes =
       rows_.size() * (sizeof(std::uint32_t) + 3 * sizeof(double) + sizeof(FluidRow) + sizeof(SolidRow) + sizeof(SumRow)) +
-      deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes();
+      deformation_.size() * sizeof(DeformationRow) + blocks_.memory_bytes() + memory_.memory_bytes();
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
   return bytes;
 }

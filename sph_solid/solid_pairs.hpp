@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sph_fluid/pairs/blocks.hpp"
+#include "sph_fluid/pairs/pair_memory.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/pairs/pair_data.hpp"
 #include "sph_solid/plane_contact.hpp"
@@ -28,7 +29,6 @@ class SolidPairs {
     const Body* body;
   };
   SolidPairs(const Settings& settings, const sph::Settings& around, std::vector<Range> ranges);
-  ~SolidPairs();
   SolidPairs(const SolidPairs&) = delete;
   SolidPairs& operator=(const SolidPairs&) = delete;
 
@@ -86,7 +86,7 @@ class SolidPairs {
   std::vector<sph::SolidRow> image_solid_;
   std::vector<sph::SumRow> image_sums_;
   std::vector<long long> interactions_;
-  std::vector<sph::Scratch> scratch_;
+  sph::PairMemory memory_;
 };
 
 }  // namespace undex::solid

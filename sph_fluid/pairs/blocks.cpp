@@ -1,87 +1,157 @@
 #include "sph_fluid/pairs/blocks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace undex::sph {
 namespace {
 
-struct Columns {
-  double low[2], width;
-  int count[2];
+constexpr std::uint32_t none = ~std::uint32_t(0);
+/// Length of a box along x, in the largest cell's widths: long enough that few clusters end before they are full.
+constexpr double long_box = 16.0;
 
-  std::size_t of_row(const CellGrid& grid, int iy, int iz) const {
-    const int row[2] = {iy, iz};
-    int column[2];
-    for (int a = 0; a < 2; ++a) {
-      const double centre = grid.low[a + 1] + (row[a] + 0.5) * grid.size[a + 1];
-      column[a] = std::clamp(int((centre - low[a]) / width), 0, count[a] - 1);
-    }
-    return std::size_t(column[1]) * count[0] + column[0];
-  }
+/// The boxes of which the blocks are made; they lie in layers across x.
+struct Boxes {
+  double low[3], size[3];
+  int count[3];
+
+  int along(int axis, double place) const { return std::clamp(int((place - low[axis]) / size[axis]), 0, count[axis] - 1); }
+  std::size_t layer() const { return std::size_t(count[1]) * count[2]; }
+  std::size_t index(int ix, int iy, int iz) const { return ix * layer() + std::size_t(iz) * count[1] + iy; }
 };
 
-Columns columns_over(const std::vector<GroupView>& groups, double reach) {
-  Columns columns{{1e300, 1e300}, 0.0, {1, 1}};
-  double high[2] = {-1e300, -1e300}, row = 0;
+Boxes boxes_over(const std::vector<GroupView>& groups, double reach) {
+  Boxes boxes{.low = {1e300, 1e300, 1e300}, .size = {}, .count = {1, 1, 1}};
+  double high[3] = {-1e300, -1e300, -1e300}, cell[3] = {}, particles = 0;
   for (const GroupView& group : groups) {
     if (group.begin == group.end) continue;
-    for (int a = 0; a < 2; ++a) {
-      columns.low[a] = std::min(columns.low[a], group.grid.low[a + 1]);
-      high[a] = std::max(high[a], group.grid.low[a + 1] + group.grid.count[a + 1] * group.grid.size[a + 1]);
-      row = std::max(row, group.grid.size[a + 1]);
+    particles += group.end - group.begin;
+    for (int a = 0; a < 3; ++a) {
+      boxes.low[a] = std::min(boxes.low[a], group.grid.low[a]);
+      high[a] = std::max(high[a], group.grid.low[a] + group.grid.count[a] * group.grid.size[a]);
+      cell[a] = std::max(cell[a], group.grid.size[a]);
     }
   }
-  columns.width = (reach + 0.5 * row) * (1.0 + 1e-9);
-  for (int a = 0; a < 2; ++a) columns.count[a] = std::max(1, int(std::min((high[a] - columns.low[a]) / columns.width, 1e6)) + 1);
-  return columns;
+  if (particles == 0) return boxes;
+  for (int a = 0; a < 3; ++a) boxes.size[a] = (2.0 * reach + cell[a]) * (1.0 + 1e-9);
+  boxes.size[0] = std::max(boxes.size[0], long_box * cell[1]);
+  // Bodies far apart: then wider boxes, not more memory.
+  for (double number = 1e300; number > 4.0 * particles + 4096.0;) {
+    number = 1.0;
+    for (int a = 0; a < 3; ++a) {
+      const double along = std::floor((high[a] - boxes.low[a]) / boxes.size[a]) + 1.0;
+      boxes.count[a] = int(std::min(along, 1e9));
+      number *= along;
+    }
+    if (number > 4.0 * particles + 4096.0)
+      for (double& size : boxes.size) size *= 1.25;
+  }
+  return boxes;
 }
 
-/// Calls visit(column, begin, end, group) for every row that has particles.
+/// Calls visit(box, begin, end, group) for every row of cells with particles in a box. A cell belongs to the box of its middle.
 template <class Visit>
-void for_each_row(const std::vector<GroupView>& groups, const Columns& columns, Visit visit) {
+void for_each_run(const std::vector<GroupView>& groups, const Boxes& boxes, Visit visit) {
+  std::vector<int> first;  // cell of each layer
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const CellGrid& grid = groups[g].grid;
     if (groups[g].begin == groups[g].end) continue;
+    const auto box_of = [&](int axis, int cell) { return boxes.along(axis, grid.low[axis] + (cell + 0.5) * grid.size[axis]); };
+    first.assign(boxes.count[0] + 1, grid.count[0]);
+    for (int cell = grid.count[0]; cell-- > 0;) first[box_of(0, cell)] = cell;
+    for (int layer = boxes.count[0]; layer-- > 0;) first[layer] = std::min(first[layer], first[layer + 1]);
     for (int iz = 0; iz < grid.count[2]; ++iz)
       for (int iy = 0; iy < grid.count[1]; ++iy) {
         const std::uint32_t* row = grid.start + (std::size_t(iz) * grid.count[1] + iy) * grid.count[0];
-        if (row[0] < row[grid.count[0]]) visit(columns.of_row(grid, iy, iz), row[0], row[grid.count[0]], std::uint16_t(g));
+        if (row[0] == row[grid.count[0]]) continue;
+        const std::size_t box = boxes.index(0, box_of(1, iy), box_of(2, iz));
+        for (int layer = 0; layer < boxes.count[0]; ++layer) {
+          const std::uint32_t begin = row[first[layer]], end = row[first[layer + 1]];
+          if (begin < end) visit(box + layer * boxes.layer(), begin, end, std::uint16_t(g));
+        }
       }
   }
 }
 
+int colour(int iy, int iz) { return 2 * (iz & 1) + (iy & 1); }
+
+/// Puts the boxes of a layer into a sequence, those of lower colour beside a box before it.
+class Sequence {
+ public:
+  Sequence(const Boxes& boxes, int threads)
+      : boxes_(boxes), chunk_(threads > 1 ? std::max(boxes.count[1], boxes.count[2]) : 1), taken_(boxes.layer()) {}
+
+  /// Calls take(iy, iz) once for every box of the layer.
+  template <class Take>
+  void walk(Take take) {
+    std::fill(taken_.begin(), taken_.end(), 0);
+    for (int z = 0; z < boxes_.count[2]; z += chunk_)
+      for (int y = 0; y < boxes_.count[1]; y += chunk_)
+        for (int c = 0; c < 4; ++c)
+          for (int iz = z; iz < std::min(z + chunk_, boxes_.count[2]); ++iz)
+            for (int iy = y; iy < std::min(y + chunk_, boxes_.count[1]); ++iy)
+              if (colour(iy, iz) == c) reach(iy, iz, take);
+  }
+
+ private:
+  template <class Take>
+  void reach(int iy, int iz, Take& take) {
+    unsigned char& taken = taken_[boxes_.index(0, iy, iz)];
+    if (taken) return;
+    taken = 1;
+    for (int z = std::max(iz - 1, 0); z <= std::min(iz + 1, boxes_.count[2] - 1); ++z)
+      for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, boxes_.count[1] - 1); ++y)
+        if (colour(y, z) < colour(iy, iz)) reach(y, z, take);
+    take(iy, iz);
+  }
+
+  const Boxes& boxes_;
+  int chunk_;  // boxes along y and z that are taken together
+  std::vector<unsigned char> taken_;
+};
+
 }  // namespace
 
-void BlockOrder::build(const std::vector<GroupView>& groups, double reach) {
-  const Columns columns = columns_over(groups, reach);
-  columns_y_ = columns.count[0];
-  columns_z_ = columns.count[1];
-  next_.assign(std::size_t(columns_y_) * columns_z_, 0);
-  for_each_row(groups, columns, [&](std::size_t column, std::uint32_t begin, std::uint32_t end, std::uint16_t) {
-    next_[column] += (end - begin + cluster_size - 1) / cluster_size;
+void BlockOrder::build(const std::vector<GroupView>& groups, double reach, int threads) {
+  const Boxes boxes = boxes_over(groups, reach);
+  next_.assign(boxes.count[0] * boxes.layer(), 0);
+  for_each_run(groups, boxes, [&](std::size_t box, std::uint32_t begin, std::uint32_t end, std::uint16_t) {
+    next_[box] += (end - begin + cluster_size - 1) / cluster_size;
   });
 
   blocks_.clear();
+  waits_.clear();
   std::uint32_t clusters = 0;
-  for (int colour = 0; colour < 9; ++colour)
-    for (int iz = colour / 3; iz < columns_z_; iz += 3)
-      for (int iy = colour % 3; iy < columns_y_; iy += 3) {
-        std::uint32_t& slot = next_[std::size_t(iz) * columns_y_ + iy];
-        if (slot == 0) continue;
-        const std::uint32_t here = slot;
-        slot = clusters;
-        clusters += here;
-        blocks_.push_back({.begin = slot, .end = clusters, .iy = iy, .iz = iz});
-      }
-  rank_.assign(next_.size(), std::uint32_t(blocks_.size()));
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    rank_[std::size_t(blocks_[b].iz) * columns_y_ + blocks_[b].iy] = std::uint32_t(b);
+  // Of the layer before and of this one: the block of each box.
+  std::vector<std::uint32_t> before, here;
+  Sequence sequence(boxes, threads);
+  for (int ix = 0; ix < boxes.count[0]; ++ix) {
+    std::swap(before, here);
+    here.assign(boxes.layer(), none);
+    sequence.walk([&](int iy, int iz) {
+      std::uint32_t& slot = next_[boxes.index(ix, iy, iz)];
+      if (slot == 0) return;
+      Block block{.begin = clusters, .end = clusters + slot, .first_wait = std::uint32_t(waits_.size()), .last_wait = 0};
+      for (int z = std::max(iz - 1, 0); z <= std::min(iz + 1, boxes.count[2] - 1); ++z)
+        for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, boxes.count[1] - 1); ++y) {
+          const std::size_t box = boxes.index(0, y, z);
+          if (ix > 0 && before[box] != none) waits_.push_back(before[box]);
+          if (colour(y, z) < colour(iy, iz) && here[box] != none) waits_.push_back(here[box]);
+        }
+      block.last_wait = std::uint32_t(waits_.size());
+      here[boxes.index(0, iy, iz)] = std::uint32_t(blocks_.size());
+      blocks_.push_back(block);
+      slot = clusters;
+      clusters = block.end;
+    });
+  }
   finished_.resize(blocks_.size());
 
   clusters_.resize(clusters);
-  for_each_row(groups, columns, [&](std::size_t column, std::uint32_t begin, std::uint32_t end, std::uint16_t group) {
+  for_each_run(groups, boxes, [&](std::size_t box, std::uint32_t begin, std::uint32_t end, std::uint16_t group) {
     for (std::uint32_t i = begin; i < end; i += cluster_size)
-      clusters_[next_[column]++] = {i, std::uint16_t(std::min<std::uint32_t>(cluster_size, end - i)), group};
+      clusters_[next_[box]++] = {i, std::uint16_t(std::min<std::uint32_t>(cluster_size, end - i)), group};
   });
 }
 
@@ -89,15 +159,13 @@ void BlockOrder::describe(PairInput& in) {
   in.clusters = clusters_.data();
   in.blocks = blocks_.data();
   in.block_count = std::uint32_t(blocks_.size());
-  in.columns_y = columns_y_;
-  in.columns_z = columns_z_;
-  in.rank = rank_.data();
+  in.waits = waits_.data();
   in.finished = finished_.data();
 }
 
 std::size_t BlockOrder::memory_bytes() const {
-  return clusters_.capacity() * sizeof(Cluster) + blocks_.capacity() * sizeof(Block) + 4 * (rank_.capacity() + next_.capacity()) +
-         finished_.capacity();
+  return clusters_.capacity() * sizeof(Cluster) + blocks_.capacity() * sizeof(Block) +
+         4 * (waits_.capacity() + next_.capacity()) + finished_.capacity();
 }
 
 }  // namespace undex::sph

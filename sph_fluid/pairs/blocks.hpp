@@ -1,8 +1,9 @@
-// The order in which a pair loop works through the clusters. Rows of cells are gathered into columns along x, as wide as a
-// kernel's reach plus half a row; a column's clusters are a block. A block adds to particles within reach of its rows, so
-// blocks that lie three columns apart never touch the same one: they are taken in nine colours, and a block that comes
-// later waits for the blocks less than three columns away that come before it. Every particle therefore receives its sums
-// in one order, whatever the number of threads.
+// The order in which a pair loop works through the clusters. Space is cut into boxes, each at least twice a kernel's reach and a
+// cell wide, so that none but neighbouring boxes add to the same particle; the clusters of a box are a block. Of two neighbours
+// the one of lower rank comes first: layer by layer along x, and within a layer in four colours, even and odd along y and z.
+// Every particle therefore receives its sums in one order, whatever the number of threads and whatever else is worked on. Blocks
+// are taken in a sequence that obeys the ranks and finds in the cache what the last blocks have left there: compact chunks along
+// y, each block after those neighbours that must come before it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace undex::sph {
 class BlockOrder {
  public:
   /// Cuts the rows of the groups' grids into clusters and sorts these by block. `reach` is the largest distance of a pair [m].
-  void build(const std::vector<GroupView>& groups, double reach);
+  /// The number of threads shapes the chunks, not the ranks.
+  void build(const std::vector<GroupView>& groups, double reach, int threads);
 
   /// Hands clusters, blocks and their order to a loop.
   void describe(PairInput& in);
@@ -26,9 +28,8 @@ class BlockOrder {
  private:
   std::vector<Cluster> clusters_;
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> rank_, next_;
+  std::vector<std::uint32_t> waits_, next_;
   std::vector<unsigned char> finished_;
-  int columns_y_ = 0, columns_z_ = 0;
 };
 
 }  // namespace undex::sph

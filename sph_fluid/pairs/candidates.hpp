@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sph_fluid/pairs/fluid_state.hpp"
+#include "sph_fluid/pairs/single_rows.hpp"
 
 namespace undex::sph::UNDEX_LEVEL {
 
@@ -81,10 +82,56 @@ inline std::uint32_t scan_run(const double* x, const double* y, const double* z,
   return found;
 }
 
-/// Appends to the list the particles of one grid, from `from` on, within `reach` of the box.
-template <class List>
-void scan_grid(const CellGrid& grid, const double* x, const double* y, const double* z, const Box3& box, double reach,
-               std::uint32_t from, List& list) {
+/// Places in fixed point as a cluster sees them, mirrored or not: (n - middle) times unit from its middle; `half` its box's
+/// half widths [m].
+struct FixedView {
+  const std::int32_t* n[3];
+  std::int32_t middle[3];
+  float unit[3], half[3];
+};
+
+/// The same on places in fixed point; the places found go to to.place.
+inline std::uint32_t scan_run(const FixedView& view, std::uint32_t begin, std::uint32_t end, float reach2, std::uint32_t found,
+                              Scratch& to) {
+  using V = Vec<float>;
+  typedef std::int32_t Whole __attribute__((vector_size(UNDEX_VECTOR_BYTES)));
+  constexpr std::uint32_t W = lanes<float>;
+  float* const place[3] = {static_cast<float*>(to.place[0]), static_cast<float*>(to.place[1]), static_cast<float*>(to.place[2])};
+  for (std::uint32_t s = begin; s < end; s += W) {
+    V at[3], d2{};
+    for (int a = 0; a < 3; ++a) {
+      Whole n;
+      __builtin_memcpy(&n, view.n[a] + s, sizeof n);  // beyond the end: there is room
+      at[a] = __builtin_convertvector(n - view.middle[a], V) * view.unit[a];
+      const V beyond = maximum(V{}, maximum(at[a], -at[a]) - view.half[a]);
+      d2 += beyond * beyond;
+    }
+#if UNDEX_VECTOR_BYTES == 64
+    const __mmask16 inside = end - s >= 16 ? 0xffff : __mmask16((1u << (end - s)) - 1u);
+    const __mmask16 near = _mm512_mask_cmp_ps_mask(inside, (__m512)d2, _mm512_set1_ps(reach2), _CMP_LT_OQ);
+    const __m512i ids =
+        _mm512_add_epi32(_mm512_set1_epi32(int(s)), _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+    _mm512_storeu_si512(to.index + found, _mm512_maskz_compress_epi32(near, ids));
+    for (int a = 0; a < 3; ++a) _mm512_storeu_ps(place[a] + found, _mm512_maskz_compress_ps(near, (__m512)at[a]));
+    found += std::uint32_t(__builtin_popcount(near));
+#else
+    int near = bits_of(d2 < reach2);
+    if (end - s < W) near &= (1 << (end - s)) - 1;
+    for (; near != 0; near &= near - 1) {
+      const int l = __builtin_ctz(unsigned(near));
+      to.index[found] = s + std::uint32_t(l);
+      for (int a = 0; a < 3; ++a) place[a][found] = at[a][l];
+      ++found;
+    }
+#endif
+  }
+  return found;
+}
+
+/// Appends to the list the particles of one grid, from `from` on, within `reach` of the box: those that
+/// run(begin, end, found) finds among begin..end, which returns the new number of entries.
+template <class List, class Run>
+UNDEX_INLINE void scan_grid(const CellGrid& grid, const Box3& box, double reach, std::uint32_t from, List& list, Run run) {
   int first[3], last[3];
   for (int a = 0; a < 3; ++a) {
     if (box.low[a] - reach > grid.bound_high[a] || box.high[a] + reach < grid.bound_low[a]) return;
@@ -114,7 +161,7 @@ void scan_grid(const CellGrid& grid, const double* x, const double* y, const dou
       const std::uint32_t begin = start < from ? from : start;
       if (begin < end) {
         list.reserve(list.size + (end - begin) + 16);
-        list.size = scan_run(x, y, z, begin, end, box, reach2, list.size, list.scratch());
+        list.size = run(begin, end, list.size);
       }
     }
   }
@@ -141,15 +188,16 @@ UNDEX_INLINE void for_each_image(const bool mirror[3], const Box3& box, double r
   }
 }
 
-/// The candidates of one cluster in a thread's scratch memory, a vector's worth after the other: each block holds `lanes`
-/// places (relative to an origin), weights, rows, second rows where the pass wants them, and room for what the pairs add to them.
+/// The candidates of one cluster in a thread's scratch memory. Their places (from an origin) stand beside; the rest a vector's
+/// worth after the other: each block holds `lanes` weights, rows, second rows where the pass wants them, and room for what the
+/// pairs add to them.
 template <class T, class Second, int sums, bool rings = false>
 class CandidateList {
  public:
   static constexpr int W = lanes<T>, D = lanes<double>;
   static constexpr int row = 8;
   /// Offsets of the parts within a block, and from block to block.
-  static constexpr int place = 0, weight = 3 * W, state = 4 * W, second = (4 + row) * W;
+  static constexpr int weight = 0, state = W, second = (1 + row) * W;
   static constexpr int ring = second + length_of<Second> * W, sum = ring + (rings ? length_of<RingRow> * W : 0);
   static constexpr int stride = sum + sums * W;
   std::uint32_t size = 0;  ///< candidates
@@ -158,6 +206,7 @@ class CandidateList {
 
   UNDEX_INLINE T* block(std::uint32_t b) const { return static_cast<T*>(scratch_.blocks) + std::size_t(b) * stride; }
   Scratch& scratch() const { return scratch_; }
+  UNDEX_INLINE T* place(int axis) const { return static_cast<T*>(scratch_.place[axis]); }
   const std::uint32_t* index() const { return scratch_.index; }
   std::uint32_t blocks() const { return (size + W - 1) / W; }
 
@@ -183,12 +232,15 @@ class CandidateList {
   /// Candidates from `begin` on get their places, mirrored and relative to the origin; those from `real` on go far away.
   UNDEX_INLINE void fill_places(std::uint32_t begin, std::uint32_t real, const double origin[3], int image, T far) {
     const double* axes[3] = {scratch_.x, scratch_.y, scratch_.z};
-    for (std::uint32_t c = begin; c < size; c += D) {
-      T* to = block(c / W) + c % W;
+    for (std::uint32_t c = begin; c < size; c += D)
       for (int a = 0; a < 3; ++a)
-        store_converted(to + place + a * W, (image >> a & 1 ? -1.0 : 1.0) * load_double(axes[a] + c) - origin[a]);
-    }
-    for (; real < size; ++real) block(real / W)[place + real % W] = far;
+        store_converted(place(a) + c, (image >> a & 1 ? -1.0 : 1.0) * load_double(axes[a] + c) - origin[a]);
+    set_aside(real, far);
+  }
+  /// Candidates from `real` on go far away.
+  UNDEX_INLINE void set_aside(std::uint32_t real, T far) {
+    for (; real < size; ++real)
+      for (int a = 0; a < 3; ++a) place(a)[real] = far;
   }
 
   /// What a pair with each counts: one half for the first `halves` candidates from `begin` on, one for the others.
@@ -210,6 +262,23 @@ class CandidateList {
       for (int k = 0; k < length; ++k)
         if (__builtin_popcount(unsigned(Row::parity(k) & image)) & 1)
           for (int l = 0; l < D; ++l) to[k * W + l] = -to[k * W + l];
+    }
+  }
+
+  /// The same from rows in single precision. Without `tail` what stands there is not to be read.
+  UNDEX_INLINE void fill_single(std::uint32_t begin, const SingleRows& rows, bool tail, int image) {
+    using Layout = SingleLayout<Second>;
+    for (std::uint32_t c = begin; c < size; c += W) {
+      const std::uint32_t* which = scratch_.index + c;
+      T* to = block(c / W);
+      fill_eights<0>(to, rows.main, Layout::main, which);
+      if constexpr (Layout::main > Layout::tile) {
+        fill_eights<Layout::tile>(to, rows.main + Layout::tile, Layout::main, which);
+        if (tail) fill_eights<Layout::main>(to, rows.tail, Layout::tail, which);
+      }
+      if (image == 0) continue;
+      turn_signs<FluidRow>(to + state, image);
+      turn_signs<Second>(to + second, image);
     }
   }
 
@@ -268,6 +337,41 @@ class CandidateList {
       for (int k = 0; k < D; ++k) store_converted(to + (first + k) * W, tile[k]);
       fill_tiles<first + D, end>(to, rows, which);
     }
+  }
+
+  /// Where number n of main row and tail goes; beyond the last none: -1.
+  static constexpr int place_of(int n) {
+    using Layout = SingleLayout<Second>;
+    if (Layout::alone || n < Layout::state) return state + n * W;
+    if (n == Layout::main) return state + Layout::state * W;
+    const int k = n < Layout::main ? n - Layout::state : n - Layout::main - 1 + Layout::in_main;
+    return k < length_of<Second> ? second + k * W : -1;
+  }
+
+  /// Eight numbers of a vector of rows that are `length` long, the first of them number `first` of main row and tail.
+  template <int first>
+  UNDEX_INLINE void fill_eights(T* to, const float* rows, int length, const std::uint32_t* which) {
+#if UNDEX_VECTOR_BYTES >= 32
+    Vec<float> tile[8];
+#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k)
+      tile[k] = load_eights(rows + std::size_t(which[k]) * length, rows + std::size_t(which[(k + 8) % W]) * length);
+    transpose_eights(tile);
+#pragma GCC unroll 8
+    for (int k = 0; k < 8; ++k)
+      if (place_of(first + k) >= 0) store(to + place_of(first + k), tile[k]);
+#else
+    for (int k = 0; k < 8; ++k)
+      for (int l = 0; l < W; ++l)
+        if (place_of(first + k) >= 0) to[place_of(first + k) + l] = rows[std::size_t(which[l]) * length + k];
+#endif
+  }
+
+  /// Of a block's numbers those that change their sign in the mirror.
+  template <class Row>
+  UNDEX_INLINE static void turn_signs(T* to, int image) {
+    for (int k = 0; k < length_of<Row>; ++k)
+      if (__builtin_popcount(unsigned(Row::parity(k) & image)) & 1) store(to + k * W, -load(to + k * W));
   }
 
   Scratch& scratch_;

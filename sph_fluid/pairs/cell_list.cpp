@@ -28,7 +28,8 @@ Range range_of(const double* a, std::uint32_t first, std::uint32_t last) {
 
 }  // namespace
 
-void CellList::build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width) {
+void CellList::build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width,
+                     const std::uint32_t* number) {
   first_ = first;
   const std::uint32_t n = last - first;
   const double* axes[3] = {x, y, z};
@@ -89,6 +90,17 @@ void CellList::build(const double* x, const double* y, const double* z, std::uin
       start_[cell_count] = first + sum;
     }
     for (std::uint32_t k = from; k < to; ++k) order_[mine[key_[k]]++] = first + k;
+  }
+  if (number != nullptr) sort_within_cells(number);
+}
+
+void CellList::sort_within_cells(const std::uint32_t* number) {
+  const auto earlier = [number](std::uint32_t a, std::uint32_t b) { return number[a] < number[b]; };
+  std::uint32_t* const order = order_.data();
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < start_.size() - 1; ++c) {
+    std::uint32_t *const begin = order + (start_[c] - first_), *const end = order + (start_[c + 1] - first_);
+    if (!std::is_sorted(begin, end, earlier)) std::sort(begin, end, earlier);
   }
 }
 

@@ -9,13 +9,15 @@
 
 namespace undex::sph {
 
-/// Counting sort of the particles first..last of three position arrays by cell, x fastest. Stable, so the result depends on
-/// the positions and the previous order alone, not on the number of threads.
+/// Counting sort of the particles first..last of three position arrays by cell, x fastest, and by number within a cell: the
+/// result depends on the positions and numbers alone, not on the order before or on the number of threads. Without numbers the
+/// particles of a cell keep their order.
 class CellList {
  public:
   /// Cells are `width` [m] wide (y, z) and a quarter of that long (x); they grow where stray particles would make them
-  /// too many. Throws std::domain_error when a position is not finite.
-  void build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width);
+  /// too many. `number[i]` is that of particle i. Throws std::domain_error when a position is not finite.
+  void build(const double* x, const double* y, const double* z, std::uint32_t first, std::uint32_t last, double width,
+             const std::uint32_t* number = nullptr);
 
   /// order()[k] is the present index of the particle that belongs at first + k.
   const std::vector<std::uint32_t>& order() const { return order_; }
@@ -24,6 +26,8 @@ class CellList {
   std::size_t memory_bytes() const;
 
  private:
+  void sort_within_cells(const std::uint32_t* number);
+
   CellGrid grid_{};
   std::uint32_t first_ = 0;
   std::vector<std::uint32_t> start_, key_, order_, histogram_;

@@ -127,6 +127,10 @@ struct PairKind {
   double least_pressure;
 };
 
+/// Do the pairs of a pass read rows in single precision?
+template <class Pass, class T>
+inline constexpr bool packed = same_type<T, float>&& SingleLayout<typename Pass::State::Second>::serves;
+
 /// One pass over one cluster: its candidates, the pairs with them, and the sums.
 template <class Kernel, template <class> class Scheme, class T>
 class ClusterWork {
@@ -139,6 +143,7 @@ class ClusterWork {
   using Second = typename State::Second;
   static constexpr bool with_second = !same_type<Second, NoRow>;
   static constexpr bool rings = over_rings<Pass>;
+  static constexpr bool single = packed<Pass, T>;
   /// Candidates that are seen across the same symmetry planes.
   struct Piece {
     std::uint32_t begin, real;
@@ -153,6 +158,11 @@ class ClusterWork {
       : in_(in), pass_(pass), cluster_(cluster), own_(in.groups[cluster.group]), list_(scratch), out_(out) {
     box_ = box_of(in.x, in.y, in.z, cluster.begin, cluster.count);
     for (int a = 0; a < 3; ++a) origin_[a] = 0.5 * (box_.low[a] + box_.high[a]);
+    if constexpr (single) fixed_ = in.frame->fine && in.sight.self == nullptr;
+    for (int a = 0; fixed_ && a < 3; ++a) {
+      middle_[a] = std::int32_t(origin_[a] / in.frame->unit[a] - in.frame->low[a]);
+      origin_[a] = (in.frame->low[a] + middle_[a]) * in.frame->unit[a];
+    }
     h_cluster_ = own_.h_max;
     if (own_.variable_h) {
       h_cluster_ = 0.0;
@@ -220,11 +230,13 @@ class ClusterWork {
       if (Pass::symmetric && g == cluster_.group) {
         own = cluster_.count;
         list_.reserve(begin + own);
-        for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, x[k], y[k], z[k]);
+        if (fixed_) list_.size = scan_run(fixed_view(false, image), cluster_.begin, next, 1e30f, begin, list_.scratch());
+        else
+          for (std::uint32_t k = cluster_.begin; k < next; ++k) list_.append(k, x[k], y[k], z[k]);
       }
-      scan_grid(other.grid, x, y, z, box, reach, Pass::symmetric ? next : 0, list_);
+      search(other.grid, {x, y, z}, images, image, box, reach, Pass::symmetric ? next : 0);
       pieces_[piece_count_++] = {begin, list_.size, image};
-      fill(begin, images ? list_.size - begin : own, images, image, reach);
+      fill(begin, images ? list_.size - begin : own, images, image, reach, !kind.constant_h || kind.gas);
     });
     // Images reach beyond the wall that they stand behind.
     looks_ = beside_thin_wall_ || (images && in_.sight.self != nullptr);
@@ -241,7 +253,7 @@ class ClusterWork {
     const double reach = kernel_.support * h_cluster_;
     for_each_image(in_.mirror, box_, reach, [&](int image, const Box3& box) {
       list_.size = 0;
-      scan_grid(in_.wall_grid, in_.wall_x, in_.wall_y, in_.wall_z, box, reach, 0, list_);
+      search_exactly(in_.wall_grid, {in_.wall_x, in_.wall_y, in_.wall_z}, box, reach, 0);
       const std::uint32_t real = list_.size;
       if (real == 0) return;
       list_.pad(0);
@@ -261,6 +273,42 @@ class ClusterWork {
     });
   }
 
+  struct Places {
+    const double *x, *y, *z;
+  };
+  void search_exactly(const CellGrid& grid, const Places& at, const Box3& box, double reach, std::uint32_t from) {
+    scan_grid(grid, box, reach, from, list_,
+              [&](std::uint32_t begin, std::uint32_t end, std::uint32_t found) UNDEX_LAMBDA_INLINE {
+                return scan_run(at.x, at.y, at.z, begin, end, box, reach * reach, found, list_.scratch());
+              });
+  }
+  /// Candidates of a grid: those that stand, mirrored, within reach of the cluster's box, which is mirrored to them.
+  void search(const CellGrid& grid, const Places& at, bool images, int image, const Box3& box, double reach, std::uint32_t from) {
+    if (!fixed_) return search_exactly(grid, at, box, reach, from);
+    const FixedView view = fixed_view(images, image);
+    const float reach2 = float(reach * reach) * (1 + 1e-5f);
+    scan_grid(grid, box, reach, from, list_,
+              [&](std::uint32_t begin, std::uint32_t end, std::uint32_t found)
+                  UNDEX_LAMBDA_INLINE { return scan_run(view, begin, end, reach2, found, list_.scratch()); });
+  }
+  FixedView fixed_view(bool images, int image) const {
+    FixedView view;
+    for (int a = 0; a < 3; ++a) {
+      const bool flip = image >> a & 1;
+      view.n[a] = in_.single[images].place[a];
+      view.middle[a] = std::int32_t(flip ? -2.0 * in_.frame->low[a] - middle_[a] : double(middle_[a]));
+      view.unit[a] = float(flip ? -in_.frame->unit[a] : in_.frame->unit[a]);
+      view.half[a] = float(0.5 * (box_.high[a] - box_.low[a]) + in_.frame->unit[a]);
+    }
+    return view;
+  }
+  /// Place of one of the cluster's own particles from its middle.
+  UNDEX_INLINE T own_place(int axis, std::uint32_t i) const {
+    if (fixed_) return T(float(in_.single[0].place[axis][i] - middle_[axis]) * float(in_.frame->unit[axis]));
+    const double* const axes[3] = {in_.x, in_.y, in_.z};
+    return T(axes[axis][i] - origin_[axis]);
+  }
+
   /// How much the cluster's particles see of the candidates of a piece that are within reach.
   void look(const Piece& piece, SightOf what, double reach) {
     Scratch& s = list_.scratch();
@@ -268,9 +316,8 @@ class ClusterWork {
                      {cluster_.begin, cluster_.count, what, s.index, s.x, s.y, s.z, piece.begin, piece.real, piece.image, reach,
                       s.share, s.capacity});
     for (std::uint32_t c = piece.begin; c < piece.real; ++c) {
-      const T* block = list_.block(c / W) + c % W;
-      s.kept[2 * c] = double(block[List::place]);
-      s.kept[2 * c + 1] = double(block[counted]);
+      s.kept[2 * c] = double(list_.place(0)[c]);
+      s.kept[2 * c + 1] = double(list_.block(c / W)[c % W + counted]);
     }
   }
 
@@ -282,23 +329,28 @@ class ClusterWork {
     const double far = 1e3 * kernel_.support * h_cluster_;
     for (int k = 0; k < piece_count_; ++k)
       for (std::uint32_t c = pieces_[k].begin; c < pieces_[k].real; ++c) {
-        T* block = list_.block(c / W) + c % W;
-        block[List::place] = T(share[c] > 0.0f ? s.kept[2 * c] : far);
-        if constexpr (!wall) block[counted] = T(share[c] * s.kept[2 * c + 1]);
+        list_.place(0)[c] = T(share[c] > 0.0f ? s.kept[2 * c] : far);
+        if constexpr (!wall) list_.block(c / W)[c % W + counted] = T(share[c] * s.kept[2 * c + 1]);
       }
   }
 
   const Second* second_rows(bool images) const { return static_cast<const Second*>(images ? in_.images.second : in_.second); }
 
-  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half.
-  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach) {
+  /// The candidates from `begin` on get what the pairs read of them; pairs with the first `halves` count one half. `gas`: do
+  /// they read what only pairs with gas do?
+  void fill(std::uint32_t begin, std::uint32_t halves, bool images, int image, double reach, [[maybe_unused]] bool gas) {
     const std::uint32_t real = list_.size;
     if (real == begin) return;
     list_.pad(begin);
-    list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
+    if (fixed_) list_.set_aside(real, T(1e3 * reach));
+    else list_.fill_places(begin, real, origin_, image, T(1e3 * reach));
     if (Pass::symmetric) list_.fill_weights(begin, halves);
-    list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
-    if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
+    if constexpr (single) {
+      list_.fill_single(begin, in_.single[images], gas || length_of<Second> > length_of<GradientRow>, image);
+    } else {
+      list_.template fill_rows<List::state>(begin, images ? in_.images.fluid : in_.fluid, image);
+      if constexpr (with_second) list_.template fill_rows<List::second>(begin, second_rows(images), image);
+    }
     if constexpr (rings) list_.template fill_rows<List::ring>(begin, images ? in_.images.rings : in_.rings, image);
   }
 
@@ -313,6 +365,7 @@ class ClusterWork {
       if (kind.constant_h) pairs_of<Other, OtherSums, two_sided>(l, kind, ConstantH<Kernel, T>(kernel_, h_of(l), in_));
       else pairs_of<Other, OtherSums, two_sided>(l, kind, PairH<Kernel, T>(kernel_, h_of(l), in_));
     }
+    begun_ = true;
   }
 
   /// Particle l of the cluster with all candidates.
@@ -323,8 +376,8 @@ class ClusterWork {
     i.read([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.fluid + me)[k])); });
     if constexpr (with_second) i.read_second([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(second_ + me)[k])); });
     if constexpr (rings) i.read_ring([&](int k) UNDEX_LAMBDA_INLINE { return broadcast(T(numbers(in_.rings + me)[k])); });
-    const V x = broadcast(T(in_.x[me] - origin_[0])), y = broadcast(T(in_.y[me] - origin_[1])),
-            z = broadcast(T(in_.z[me] - origin_[2]));
+    const V x = broadcast(own_place(0, me)), y = broadcast(own_place(1, me)), z = broadcast(own_place(2, me));
+    const T *xs = list_.place(0), *ys = list_.place(1), *zs = list_.place(2);
     constexpr bool wall = same_type<Other, Wall>;
     Sums si;
     V met{};
@@ -334,15 +387,15 @@ class ClusterWork {
     pair.least_pressure = T(kind.least_pressure);
     T* block = list_.block(0);
     T* const end = list_.block(list_.blocks());
-    for (; block != end; block += List::stride) {
+    for (; block != end; block += List::stride, xs += W, ys += W, zs += W) {
       Other j;
       j.read([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::state + k * W); });
       if constexpr (with_second && !wall)
         j.read_second([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::second + k * W); });
       if constexpr (rings && !wall) j.read_ring([&](int k) UNDEX_LAMBDA_INLINE { return load(block + List::ring + k * W); });
-      pair.dx = x - load(block + List::place);
-      pair.dy = y - load(block + List::place + W);
-      pair.dz = z - load(block + List::place + 2 * W);
+      pair.dx = x - load(xs);
+      pair.dy = y - load(ys);
+      pair.dz = z - load(zs);
       pair.r2 = pair.dx * pair.dx + pair.dy * pair.dy + pair.dz * pair.dz;
       smoothing.template evaluate<rings>(pair, block + List::state + 7 * W);
       if constexpr (wall || !Pass::symmetric) {
@@ -360,21 +413,25 @@ class ClusterWork {
       if constexpr (two_sided) sj.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { store(block + List::sum + k * W, sum); });
     }
     met_ += met;
-    si.each([&](V& sum, int k)
-                UNDEX_LAMBDA_INLINE { sums_[l][k] = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
+    if (begun_)
+      si.each([&](V& sum, int k)
+                  UNDEX_LAMBDA_INLINE { sum = Sums::is_maximum(k) ? maximum(sums_[l][k], sum) : sums_[l][k] + sum; });
+    si.each([&](V& sum, int k) UNDEX_LAMBDA_INLINE { sums_[l][k] = sum; });
   }
 
   /// The particles' sums over lanes and candidates, D particles at a time.
   void store_sums() {
     constexpr int D = lanes<double>;
+    if (!begun_ || cluster_.count < cluster_size)
+      for (int l = begun_ ? cluster_.count : 0; l < cluster_size; ++l)
+        for (int k = 0; k < Sums::count; ++k) sums_[l][k] = V{};
     for (int first = 0; first < cluster_.count; first += D) {
       Vec<double> total[Sums::count];
 #pragma GCC unroll 32
       for (int k = 0; k < Sums::count; ++k) {
-        Vec<double> part[D];
+        V part[D];
 #pragma GCC unroll 8
-        for (int l = 0; l < D; ++l)
-          part[l] = Sums::is_maximum(k) ? halved<true>(sums_[first + l][k]) : halved<false>(sums_[first + l][k]);
+        for (int l = 0; l < D; ++l) part[l] = sums_[first + l][k];
         total[k] = Sums::is_maximum(k) ? folded<true>(part) : folded<false>(part);
       }
       const int count = cluster_.count - first < D ? cluster_.count - first : D;
@@ -401,36 +458,31 @@ class ClusterWork {
   Box3 box_;
   double origin_[3];
   double h_cluster_;
-  V sums_[cluster_size][Sums::count] = {};
+  V sums_[cluster_size][Sums::count];
   V met_{};  // half the neighbours met
-  bool beside_thin_wall_ = false, looks_ = false;
+  bool beside_thin_wall_ = false, looks_ = false, fixed_ = false;
+  bool begun_ = false;           // is there anything in the sums?
+  std::int32_t middle_[3] = {};  // origin in fixed point
   Piece pieces_[8];
   int piece_count_ = 0;
 };
 
-/// Waits until the blocks before `b` that may add to the same particles are done: those less than three columns away
-/// (blocks.hpp).
-void wait_for_neighbours(const PairInput& in, std::uint32_t b) {
-  const Block& me = in.blocks[b];
-  for (int dz = -2; dz <= 2; ++dz)
-    for (int dy = -2; dy <= 2; ++dy) {
-      const int iy = me.iy + dy, iz = me.iz + dz;
-      if (iy < 0 || iz < 0 || iy >= in.columns_y || iz >= in.columns_z) continue;
-      const std::uint32_t other = in.rank[std::size_t(iz) * in.columns_y + iy];
-      if (other >= b) continue;
-      for (int spins = 0; !__atomic_load_n(&in.finished[other], __ATOMIC_ACQUIRE); ++spins)
-        spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
-    }
+/// Waits until the blocks that come before this one and may add to the same particles are done.
+void wait_for_neighbours(const PairInput& in, const Block& block) {
+  for (std::uint32_t k = block.first_wait; k < block.last_wait; ++k)
+    for (int spins = 0; !__atomic_load_n(&in.finished[in.waits[k]], __ATOMIC_ACQUIRE); ++spins)
+      spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
 }
 
 template <LoopKernel Kernel, template <class> class Scheme, class T>
 requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
+  if constexpr (packed<Scheme<T>, T>) pack<typename Scheme<T>::State::Second>(in);
   for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
 #pragma omp parallel for schedule(monotonic : dynamic, 1)
   for (std::uint32_t b = 0; b < in.block_count; ++b) {
-    if (Scheme<T>::symmetric) wait_for_neighbours(in, b);
+    if (Scheme<T>::symmetric) wait_for_neighbours(in, in.blocks[b]);
     long long met = 0;
     for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
       met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();

@@ -30,6 +30,12 @@ void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
     candidates += candidates / 2;
     enlarge(s.index, s.capacity * sizeof *s.index, candidates * sizeof *s.index);
     for (double** axis : {&s.x, &s.y, &s.z}) enlarge(*axis, s.capacity * sizeof **axis, candidates * sizeof **axis);
+    // Of doubles or of floats.
+    for (void*& axis : s.place) {
+      double* numbers = static_cast<double*>(axis);
+      enlarge(numbers, s.capacity * sizeof *numbers, candidates * sizeof *numbers);
+      axis = numbers;
+    }
     enlarge(s.share, 0, candidates * cluster_size * sizeof *s.share);
     enlarge(s.kept, s.capacity * 2 * sizeof *s.kept, candidates * 2 * sizeof *s.kept);
     s.capacity = candidates;
@@ -37,10 +43,36 @@ void grow(Scratch& s, std::size_t bytes, std::uint32_t candidates) {
 }
 
 void release(Scratch& s) {
-  for (void* data : {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y),
-                     static_cast<void*>(s.z), static_cast<void*>(s.share), static_cast<void*>(s.kept)})
+  for (void* data :
+       {s.blocks, static_cast<void*>(s.index), static_cast<void*>(s.x), static_cast<void*>(s.y), static_cast<void*>(s.z),
+        s.place[0], s.place[1], s.place[2], static_cast<void*>(s.share), static_cast<void*>(s.kept)})
     std::free(data);
   s = {};
+}
+
+void grow(SingleRows& rows, std::size_t particles, int main, int tail) {
+  const auto enlarge = [](std::size_t& bytes, std::size_t wanted, auto*&... arrays) {
+    if (wanted <= bytes) return;
+    bytes = 0;
+    const std::size_t room = (wanted + wanted / 8 + 63) / 64 * 64;
+    const auto renew = [room](auto*& data) {
+      std::free(data);
+      data = static_cast<std::remove_reference_t<decltype(data)>>(std::aligned_alloc(64, room));
+      if (data == nullptr) throw std::bad_alloc();
+    };
+    (renew(arrays), ...);
+    bytes = room;
+  };
+  enlarge(rows.main_bytes, particles * main * sizeof(float), rows.main);
+  enlarge(rows.tail_bytes, particles * tail * sizeof(float), rows.tail);
+  enlarge(rows.place_bytes, particles * sizeof(std::int32_t) + 64, rows.place[0], rows.place[1], rows.place[2]);
+}
+
+void release(SingleRows& rows) {
+  for (void* data : {static_cast<void*>(rows.main), static_cast<void*>(rows.tail), static_cast<void*>(rows.place[0]),
+                     static_cast<void*>(rows.place[1]), static_cast<void*>(rows.place[2])})
+    std::free(data);
+  rows = {};
 }
 
 }  // namespace undex::sph

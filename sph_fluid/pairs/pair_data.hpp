@@ -85,10 +85,10 @@ struct Cluster {
   std::uint16_t group;
 };
 
-/// Clusters of neighbouring rows (a column along x) that one thread works on at a time; see blocks.hpp.
+/// Clusters of neighbouring rows that one thread works on at a time, after the blocks that it waits for; see blocks.hpp.
 struct Block {
-  std::uint32_t begin, end;  ///< clusters
-  int iy, iz;                ///< its place among the columns
+  std::uint32_t begin, end;             ///< clusters
+  std::uint32_t first_wait, last_wait;  ///< in PairInput::waits
 };
 
 /// Buffers of one thread for the candidates of a cluster, grown on demand.
@@ -97,13 +97,30 @@ struct Scratch {
   std::size_t bytes = 0;
   std::uint32_t* index = nullptr;                   ///< which particles they are
   double *x = nullptr, *y = nullptr, *z = nullptr;  ///< where [m]
-  std::uint32_t capacity = 0;                       ///< of the last four
-  float* share = nullptr;                           ///< cluster_size times as many: see SightQuestion
-  double* kept = nullptr;                           ///< twice as many: what candidates are before shares are taken of them
+  void* place[3] = {};         ///< the same as the pairs see it, from the cluster's middle and mirrored [m]: numbers of the loop
+  std::uint32_t capacity = 0;  ///< of the last seven
+  float* share = nullptr;      ///< cluster_size times as many: see SightQuestion
+  double* kept = nullptr;      ///< twice as many: what candidates are before shares are taken of them
 };
 /// Makes room, keeping what is there.
 void grow(Scratch&, std::size_t bytes, std::uint32_t candidates);
 void release(Scratch&);
+
+/// What pairs in single precision read (single_rows.hpp), grown on demand: rows, and places in fixed point.
+struct SingleRows {
+  float *main = nullptr, *tail = nullptr;
+  std::int32_t* place[3] = {};
+  std::size_t main_bytes = 0, tail_bytes = 0, place_bytes = 0;
+};
+/// Makes room for that many particles and numbers of each, and for a vector beyond their places; forgets what is there.
+void grow(SingleRows&, std::size_t particles, int main, int tail);
+void release(SingleRows&);
+
+/// Places in fixed point: (low + n) unit [m] along each axis.
+struct FixedFrame {
+  double low[3], unit[3];
+  bool fine;  ///< enough for pairs
+};
 
 /// A kernel as the loops need it.
 struct KernelChoice {
@@ -143,10 +160,11 @@ struct PairInput {
   const Cluster* clusters;                             ///< sorted by block
   const Block* blocks;                                 ///< in the order of work
   std::uint32_t block_count;
-  int columns_y, columns_z;   ///< block columns
-  const std::uint32_t* rank;  ///< rank[iz*columns_y + iy]: place in `blocks`, or block_count where there is none
-  unsigned char* finished;    ///< one flag per block, for the loops' own use
-  Scratch* scratch;           ///< one per thread
+  const std::uint32_t* waits;  ///< places in `blocks`
+  unsigned char* finished;     ///< one flag per block, for the loops' own use
+  Scratch* scratch;            ///< one per thread
+  SingleRows* single;          ///< of particles and of images, for the loops' own use
+  FixedFrame* frame;           ///< theirs
 };
 
 /// Sums of the loop, zero before it.

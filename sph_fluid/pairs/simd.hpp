@@ -106,11 +106,16 @@ UNDEX_INLINE void store_converted(float* to, Vec<double> a) {
   __builtin_memcpy(to, &part, sizeof part);
 }
 
-#if UNDEX_VECTOR_BYTES == 32
+#if UNDEX_VECTOR_BYTES < 64
 /// Bit l is set where lane l is true.
-UNDEX_INLINE int bits_of(Mask<double> m) { return _mm256_movemask_pd((__m256d)m); }
-#elif UNDEX_VECTOR_BYTES == 16
-UNDEX_INLINE int bits_of(Mask<double> m) { return _mm_movemask_pd((__m128d)m); }
+template <class M>
+UNDEX_INLINE int bits_of(M m) {
+#if UNDEX_VECTOR_BYTES == 32
+  return sizeof m[0] == 8 ? _mm256_movemask_pd((__m256d)m) : _mm256_movemask_ps((__m256)m);
+#else
+  return sizeof m[0] == 8 ? _mm_movemask_pd((__m128d)m) : _mm_movemask_ps((__m128)m);
+#endif
+}
 #endif
 
 /// r[a][b] becomes r[b][a].
@@ -139,18 +144,54 @@ UNDEX_INLINE void transpose(Vec<double> (&r)[lanes<double>]) {
 #undef UNDEX_SWAP
 }
 
-/// A vector of sums in double, its upper half added to the lower (or the larger of the two) where it was in single.
-template <bool by_maximum>
-UNDEX_INLINE Vec<double> halved(Vec<double> a) {
-  return a;
+#if UNDEX_VECTOR_BYTES >= 32
+/// r[k] has the eight numbers of row k (and in its upper half, where there is one, those of row k + 8); it becomes number k of
+/// all rows.
+UNDEX_INLINE void transpose_eights(Vec<float> (&r)[8]) {
+#if UNDEX_VECTOR_BYTES == 64
+#define UNDEX_EACH_HALF(a, b, c, d, e, f, g, h) a, b, c, d, e, f, g, h, a + 8, b + 8, c + 8, d + 8, e + 8, f + 8, g + 8, h + 8
+#define UNDEX_OTHER 16
+#else
+#define UNDEX_EACH_HALF(a, b, c, d, e, f, g, h) a, b, c, d, e, f, g, h
+#define UNDEX_OTHER 8
+#endif
+  constexpr int o = UNDEX_OTHER;
+  Vec<float> s[8], t[8];
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2) {
+    s[k] = __builtin_shufflevector(r[k], r[k + 1], UNDEX_EACH_HALF(0, o, 1, o + 1, 4, o + 4, 5, o + 5));
+    s[k + 1] = __builtin_shufflevector(r[k], r[k + 1], UNDEX_EACH_HALF(2, o + 2, 3, o + 3, 6, o + 6, 7, o + 7));
+  }
+#pragma GCC unroll 2
+  for (int k = 0; k < 8; k += 4)
+#pragma GCC unroll 2
+    for (int m = 0; m < 2; ++m) {
+      t[k + 2 * m] = __builtin_shufflevector(s[k + m], s[k + 2 + m], UNDEX_EACH_HALF(0, 1, o, o + 1, 4, 5, o + 4, o + 5));
+      t[k + 2 * m + 1] = __builtin_shufflevector(s[k + m], s[k + 2 + m], UNDEX_EACH_HALF(2, 3, o + 2, o + 3, 6, 7, o + 6, o + 7));
+    }
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {
+    r[k] = __builtin_shufflevector(t[k], t[k + 4], UNDEX_EACH_HALF(0, 1, 2, 3, o, o + 1, o + 2, o + 3));
+    r[k + 4] = __builtin_shufflevector(t[k], t[k + 4], UNDEX_EACH_HALF(4, 5, 6, 7, o + 4, o + 5, o + 6, o + 7));
+  }
+#undef UNDEX_EACH_HALF
+#undef UNDEX_OTHER
 }
-template <bool by_maximum>
-UNDEX_INLINE Vec<double> halved(Vec<float> a) {
-  typedef float Half __attribute__((vector_size(UNDEX_VECTOR_BYTES / 2)));
-  Half half[2];
-  __builtin_memcpy(&half, &a, sizeof a);
-  const Vec<double> low = __builtin_convertvector(half[0], Vec<double>), high = __builtin_convertvector(half[1], Vec<double>);
-  return by_maximum ? maximum(low, high) : low + high;
+
+/// The eight numbers of one row; of two.
+UNDEX_INLINE Vec<float> load_eights(const float* a, [[maybe_unused]] const float* b) {
+#if UNDEX_VECTOR_BYTES == 64
+  const __m512 low = _mm512_castps256_ps512(_mm256_load_ps(a));
+  return (Vec<float>)_mm512_insertf32x8(low, _mm256_load_ps(b), 1);
+#else
+  return (Vec<float>)_mm256_load_ps(a);
+#endif
+}
+#endif
+
+template <bool by_maximum, class V>
+UNDEX_INLINE V together(V a, V b) {
+  return by_maximum ? maximum(a, b) : a + b;
 }
 
 /// Lane l of the result is the sum (or maximum) over the lanes of r[l].
@@ -158,8 +199,38 @@ template <bool by_maximum>
 UNDEX_INLINE Vec<double> folded(Vec<double> (&r)[lanes<double>]) {
   transpose(r);
 #pragma GCC unroll 8
-  for (int l = 1; l < lanes<double>; ++l) r[0] = by_maximum ? maximum(r[0], r[l]) : r[0] + r[l];
+  for (int l = 1; l < lanes<double>; ++l) r[0] = together<by_maximum>(r[0], r[l]);
   return r[0];
+}
+/// The same of as many vectors in single precision, half by half.
+template <bool by_maximum>
+UNDEX_INLINE Vec<double> folded(Vec<float> (&r)[lanes<double>]) {
+  constexpr int D = lanes<double>;
+  typedef float Half __attribute__((vector_size(UNDEX_VECTOR_BYTES / 2)));
+  Half s[D];
+#pragma GCC unroll 8
+  for (int l = 0; l < D; ++l) {
+    Half half[2];
+    __builtin_memcpy(&half, &r[l], sizeof half);
+    s[l] = together<by_maximum>(half[0], half[1]);
+  }
+#define UNDEX_HALVE(count, low, high)                                                  \
+  _Pragma("GCC unroll 8") for (int l = 0; l < count; ++l) s[l] = together<by_maximum>( \
+      __builtin_shufflevector(s[2 * l], s[2 * l + 1], low), __builtin_shufflevector(s[2 * l], s[2 * l + 1], high));
+#define UNDEX_LIST(...) __VA_ARGS__
+#if UNDEX_VECTOR_BYTES == 64
+  UNDEX_HALVE(4, UNDEX_LIST(0, 8, 2, 10, 4, 12, 6, 14), UNDEX_LIST(1, 9, 3, 11, 5, 13, 7, 15))
+  UNDEX_HALVE(2, UNDEX_LIST(0, 1, 8, 9, 4, 5, 12, 13), UNDEX_LIST(2, 3, 10, 11, 6, 7, 14, 15))
+  UNDEX_HALVE(1, UNDEX_LIST(0, 1, 2, 3, 8, 9, 10, 11), UNDEX_LIST(4, 5, 6, 7, 12, 13, 14, 15))
+#elif UNDEX_VECTOR_BYTES == 32
+  UNDEX_HALVE(2, UNDEX_LIST(0, 4, 2, 6), UNDEX_LIST(1, 5, 3, 7))
+  UNDEX_HALVE(1, UNDEX_LIST(0, 1, 4, 5), UNDEX_LIST(2, 3, 6, 7))
+#else
+  UNDEX_HALVE(1, UNDEX_LIST(0, 2), UNDEX_LIST(1, 3))
+#endif
+#undef UNDEX_LIST
+#undef UNDEX_HALVE
+  return __builtin_convertvector(s[0], Vec<double>);
 }
 
 // 1/a and 1/sqrt(a) for a > 0: an estimate of 14 bits where there is one, and a Newton step of third order (relative

@@ -61,14 +61,15 @@ struct Riemann {
 
   explicit Riemann(const PairInput& in) : weight(in) {}
 
-  /// van Leer's harmonic mean of two slopes, zero where they disagree in sign.
-  UNDEX_INLINE static V limited(V a, V b) {
-    const V product = a * b;
+  /// Half of van Leer's harmonic mean of the step a between two particles and the step 2 r - a beyond, r being a's particle's
+  /// own gradient over their distance: a (2 r - a)/(2 r), zero where the steps disagree in sign.
+  UNDEX_INLINE static V half_limited(V a, V r) {
+    const V product = a * (2 * r - a);
     const Mask<T> agree = product > 0;
-    return keep(agree, 2 * product * reciprocal(agree ? a + b : broadcast(T(1))));
+    return keep(agree, T(0.5) * product * reciprocal(agree ? r : broadcast(T(1))));
   }
 
-  UNDEX_INLINE static V switched(V closing, V sound) { return minimum(12 * closing, sound) * reciprocal(sound); }
+  UNDEX_INLINE static V switched(V closing, V inverse_sound) { return minimum(12 * closing * inverse_sound, broadcast(T(1))); }
 
   /// p* of the central pressure, the switch b (`whole` where it is full) and Z times the jump; never below what the laws carry.
   UNDEX_INLINE static V star_pressure(V central, V b, V impedance, V jump, T least, V whole = broadcast(T(1))) {
@@ -87,26 +88,25 @@ struct Riemann {
     // Velocities relative to v_i . e: the left one is zero, the right one is u.
     const V u = ((i.vx - j.vx) * dx + (i.vy - j.vy) * dy + (i.vz - j.vz) * dz) * inverse_r;
     const V dp = j.p - i.p;
-    const V xx = dx * dx, yy = dy * dy, zz = dz * dz, xy = 2 * dx * dy, yz = 2 * dy * dz, zx = 2 * dz * dx;
+    const V dx2 = 2 * dx, dy2 = 2 * dy;
+    const V xx = dx * dx, yy = dy * dy, zz = dz * dz, xy = dx2 * dy, yz = dy2 * dz, zx = dx2 * dz;
     const auto rise = [&](const V(&s)[6]) {
       return (s[0] * xx + s[1] * yy + s[2] * zz + s[3] * xy + s[4] * yz + s[5] * zx) * inverse_r;
     };
     const auto climb = [&](const V(&g)[3]) { return -(g[0] * dx + g[1] * dy + g[2] * dz); };
-    const V uL = T(0.5) * limited(u, 2 * rise(i.strain) - u), uR = u - T(0.5) * limited(u, 2 * rise(j.strain) - u);
-    const V pL = i.p + T(0.5) * limited(dp, 2 * climb(i.climb) - dp), pR = j.p - T(0.5) * limited(dp, 2 * climb(j.climb) - dp);
+    const V uL = half_limited(u, rise(i.strain)), uR = u - half_limited(u, rise(j.strain));
+    const V pL = i.p + half_limited(dp, climb(i.climb)), pR = j.p - half_limited(dp, climb(j.climb));
 
-    const V Zi = i.rho * i.c, Zj = j.rho * j.c, Z = Zi + Zj;
-    const V inverse_Z = reciprocal(Z);
+    const V Zi = i.rho * i.c, Zj = j.rho * j.c, rho = i.rho + j.rho;
+    const V inverse_Z = reciprocal(Zi + Zj);
     const V jump = uL - uR;
     const V closing = maximum(jump, V{});
-    const V inverse_rho = reciprocal(i.rho + j.rho);
-    const V sound = Z * inverse_rho;
     V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
     if (pair.gas) {
-      central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * inverse_rho;
+      central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * reciprocal(rho);
       central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
     }
-    const V p_star = star_pressure(central_p, switched(closing, sound), Zi * Zj * inverse_Z, jump, pair.least_pressure);
+    const V p_star = star_pressure(central_p, switched(closing, rho * inverse_Z), Zi * Zj * inverse_Z, jump, pair.least_pressure);
     const V u_star = central_u + T(0.5) * (pL - pR) * inverse_Z;
     return {inverse_r, u, p_star, u_star};
   }
@@ -142,8 +142,9 @@ struct Riemann {
   UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const WallPair<V> m = wall_pair(i, w, pair);
     const V jump = -m.approach * reciprocal_sqrt(pair.r2 + T(1e-30));
-    const V p_star = star_pressure(i.p + T(0.5) * weight.rise(i, pair), T(0.5) * switched(maximum(jump, V{}), i.c) * i.rho, i.c,
-                                   jump, pair.least_pressure, T(0.5) * i.rho);
+    const V p_star =
+        star_pressure(i.p + T(0.5) * weight.rise(i, pair), T(0.5) * switched(maximum(jump, V{}), reciprocal(i.c)) * i.rho, i.c,
+                      jump, pair.least_pressure, T(0.5) * i.rho);
     add_wall_force(2 * pair.F * p_star, m.ex, m.ey, m.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * m.approach;
     si.compression += D;

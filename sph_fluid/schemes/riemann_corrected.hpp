@@ -127,9 +127,9 @@ struct RiemannCorrected {
   /// As in riemann.hpp, with the wall's velocity for v*. Returns p*.
   UNDEX_INLINE V wall(const State& i, const Wall& w, const Pair<V>& pair, Sums& si, WallSums<V>& sw) const {
     const V jump = -wall_pair(i, w, pair).approach * reciprocal_sqrt(pair.r2 + T(1e-30));
-    const V p_star =
-        Plain::star_pressure(i.p + T(0.5) * weight.rise(i, pair), T(0.5) * Plain::switched(maximum(jump, V{}), i.c) * i.rho, i.c,
-                             jump, pair.least_pressure, T(0.5) * i.rho);
+    const V p_star = Plain::star_pressure(i.p + T(0.5) * weight.rise(i, pair),
+                                          T(0.5) * Plain::switched(maximum(jump, V{}), reciprocal(i.c)) * i.rho, i.c, jump,
+                                          pair.least_pressure, T(0.5) * i.rho);
     const WallPair<V> g = wall_pair(i, w, bent(pair, i.B));
     add_wall_force(2 * pair.F * p_star, g.ex, g.ey, g.ez, i.volume, w.volume, si, sw);
     const V D = pair.F * w.volume * g.approach;

@@ -13,12 +13,12 @@
 namespace undex::sph {
 
 // clang-format off
-#define UNDEX_SCHEMES(ONE_PASS, TWO_PASSES)                                                      \
-  ONE_PASS(monaghan, Monaghan, viscous, rings, Gaussian, WendlandC2)                             \
-  ONE_PASS(monaghan_switch, MonaghanSwitch, viscous, no_rings)                                   \
-  ONE_PASS(paper, Paper, viscous, no_rings)                                                      \
-  TWO_PASSES(riemann, Riemann, Reconstruction, inviscid, rings, Gaussian, WendlandC2)            \
-  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid, rings)
+#define UNDEX_SCHEMES(ONE_PASS, TWO_PASSES)                                                             \
+  ONE_PASS(monaghan, Monaghan, viscous, rings, Gaussian, WendlandC2)                                    \
+  ONE_PASS(monaghan_switch, MonaghanSwitch, viscous, no_rings)                                          \
+  ONE_PASS(paper, Paper, viscous, no_rings)                                                             \
+  TWO_PASSES(riemann, Riemann, Reconstruction, inviscid, rings, Gaussian, WendlandC2)                   \
+  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid, rings, WendlandC2)
 // clang-format on
 
 enum class SchemeName {

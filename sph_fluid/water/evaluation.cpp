@@ -51,13 +51,9 @@ Evaluation::Evaluation(const Settings& settings, const MovingWalls& walls, Radia
       kernel_scale_(1.0 / lattice_factor(settings.numerics.kernel, settings.numerics.eta, settings.dimension)),
       slip_faces_(sph::slip_faces(settings)),
       threads_(settings.numerics.threads > 0 ? settings.numerics.threads : machine_threads),
-      scratch_(threads_) {
+      memory_(threads_) {
   omp_set_num_threads(threads_);
   if (settings.axisymmetric) rings_.emplace(settings.numerics.kernel, settings.numerics.eta);
-}
-
-Evaluation::~Evaluation() {
-  for (Scratch& s : scratch_) release(s);
 }
 
 void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
@@ -87,7 +83,7 @@ void Evaluation::sort(ParticleSet& set) {
   for (Group& group : set.groups) {
     const double stretch = group.body->variable_h ? group.h_max / group.h0 : 1.0;
     try {
-      group.cells.build(p.x.data(), p.y.data(), p.z.data(), group.begin, group.end, 2.0 * group.spacing * stretch);
+      group.cells.build(p.x.data(), p.y.data(), p.z.data(), group.begin, group.end, 2.0 * group.spacing * stretch, p.id.data());
     } catch (const std::domain_error&) {
       throw NumericalStop(what_is_wrong(set, settings_, clock_));
     }
@@ -113,7 +109,7 @@ void Evaluation::equation_of_state(ParticleSet& set, const Ahead& ahead) {
     h_max = std::max(h_max, group.h_max);
   }
   set.reach = loops_.support * h_max;
-  set.blocks.build(set.views, set.reach);
+  set.blocks.build(set.views, set.reach, threads_);
   signals_.find(set);
 }
 
@@ -280,7 +276,7 @@ PairInput Evaluation::pair_input(ParticleSet& set) {
   in.alpha = settings_.numerics.alpha;
   in.beta = settings_.numerics.beta;
   set.blocks.describe(in);
-  in.scratch = scratch_.data();
+  memory_.describe(in);
   return in;
 }
 

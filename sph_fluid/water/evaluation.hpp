@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/timers.hpp"
+#include "sph_fluid/pairs/pair_memory.hpp"
 #include "sph_fluid/schemes/loops.hpp"
 #include "sph_fluid/walls/slip_faces.hpp"
 #include "sph_fluid/walls/wall_lining.hpp"
@@ -31,7 +32,6 @@ class Evaluation {
              PassTimers& timers, Clamps& clamps);
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
-  ~Evaluation();
 
   /// Rates of the set at its present positions. Throws NumericalStop where a position is not finite.
   void rates(ParticleSet& set, const Ahead& ahead);
@@ -46,7 +46,7 @@ class Evaluation {
   long long interactions() const { return interactions_; }
   void count_anew() { interactions_ = 0; }
   void visit_state(StateVisitor& state);
-  std::size_t memory_bytes() const { return lining_.memory_bytes(); }
+  std::size_t memory_bytes() const { return lining_.memory_bytes() + memory_.memory_bytes(); }
 
  private:
   void sort(ParticleSet& set);
@@ -77,7 +77,7 @@ class Evaluation {
   WallLining lining_;
   Signals signals_;
   int threads_;
-  std::vector<Scratch> scratch_;
+  PairMemory memory_;
   long long interactions_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <nanoflann.hpp>
 #include <numeric>
 #include <set>
@@ -361,6 +362,25 @@ TEST(CellList, OrderDoesNotDependOnThreads) {
   EXPECT_EQ(one.order(), three.order());
 }
 
+/// With numbers the order is one of places and numbers alone, whatever it was before.
+TEST(CellList, NumbersDecideWithinACell) {
+  const std::uint32_t n = 5000;
+  const Points p = scatter(n);
+  Points turned = p;
+  std::vector<std::uint32_t> number(n), number_turned(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    number[i] = (7 * i + 3) % n;
+    const std::uint32_t k = n - 1 - i;
+    turned.x[k] = p.x[i], turned.y[k] = p.y[i], turned.z[k] = p.z[i];
+    number_turned[k] = number[i];
+  }
+  CellList cells, cells_turned;
+  cells.build(p.x.data(), p.y.data(), p.z.data(), 0, n, 0.3, number.data());
+  cells_turned.build(turned.x.data(), turned.y.data(), turned.z.data(), 0, n, 0.3, number_turned.data());
+  expect_sorted(cells, p, 0, n);
+  for (std::uint32_t k = 0; k < n; ++k) ASSERT_EQ(number[cells.order()[k]], number_turned[cells_turned.order()[k]]);
+}
+
 /// The runtime may give fewer threads than asked for (OMP_THREAD_LIMIT, a nested region): no particle may be lost.
 TEST(CellList, FewerThreadsThanAskedForLoseNothing) {
   const Points p = scatter(20000);
@@ -404,10 +424,10 @@ struct Blocks {
   BlockOrder order;
   PairInput in{};
 
-  explicit Blocks(double reach) {
-    cells[0].build(points.x.data(), points.y.data(), points.z.data(), 0, 2000, 0.1);
-    cells[1].build(points.x.data(), points.y.data(), points.z.data(), 2000, 3000, 0.17);
-    groups = {{0, 2000, cells[0].view(), 0.1, false, false}, {2000, 3000, cells[1].view(), 0.17, true, true}};
+  explicit Blocks(double reach, int threads = 1) {
+    cells[0].build(points.x.data(), points.y.data(), points.z.data(), 0, 2000, 0.04);
+    cells[1].build(points.x.data(), points.y.data(), points.z.data(), 2000, 3000, 0.05);
+    groups = {{0, 2000, cells[0].view(), 0.04, false, false}, {2000, 3000, cells[1].view(), 0.05, true, true}};
     // Into the cells' order.
     Points sorted = points;
     for (int g = 0; g < 2; ++g)
@@ -418,7 +438,7 @@ struct Blocks {
         sorted.z[to] = points.z[from];
       }
     points = sorted;
-    order.build(groups, reach);
+    order.build(groups, reach, threads);
     order.describe(in);
   }
 };
@@ -444,34 +464,66 @@ TEST(Blocks, ClustersCoverEveryParticleOnce) {
   for (const int times : seen) EXPECT_EQ(times, 1);
   for (std::uint32_t k = 0; k < b.in.block_count; ++k) {
     EXPECT_EQ(b.in.blocks[k].begin, next);
-    EXPECT_EQ(b.in.rank[std::size_t(b.in.blocks[k].iz) * b.in.columns_y + b.in.blocks[k].iy], k);
     next = b.in.blocks[k].end;
   }
 }
 
-/// Whatever lies within reach of two blocks at once lies in blocks less than three columns apart: those wait for each other.
-TEST(Blocks, ThreeColumnsApartShareNoParticle) {
-  const double reach = 0.2;
+/// Box of a block's particles.
+Bounds box_of(const Blocks& b, std::uint32_t block) {
+  Bounds box;
+  for (std::uint32_t k = b.in.blocks[block].begin; k < b.in.blocks[block].end; ++k)
+    for (std::uint32_t i = b.in.clusters[k].begin; i < b.in.clusters[k].begin + b.in.clusters[k].count; ++i)
+      box.include(Vec3(b.points.x[i], b.points.y[i], b.points.z[i]));
+  return box;
+}
+
+bool waits_for(const Blocks& b, std::uint32_t block, std::uint32_t other) {
+  const std::uint32_t *first = b.in.waits + b.in.blocks[block].first_wait, *last = b.in.waits + b.in.blocks[block].last_wait;
+  return std::find(first, last, other) != last;
+}
+
+/// Blocks that add to the same particles are done one after the other.
+TEST(Blocks, ThoseThatShareAParticleWaitForEachOther) {
+  const double reach = 0.03;
   const Blocks b(reach);
-  ASSERT_GE(b.in.columns_y, 4);
+  ASSERT_GE(b.in.block_count, 20u);
+  int apart = 0;
   for (std::uint32_t m = 0; m < b.in.block_count; ++m)
     for (std::uint32_t n = 0; n < m; ++n) {
-      if (std::abs(b.in.blocks[m].iy - b.in.blocks[n].iy) < 3 && std::abs(b.in.blocks[m].iz - b.in.blocks[n].iz) < 3) continue;
-      double nearest = 1e300;
-      for (int axis = 1; axis < 3; ++axis) {
-        const std::vector<double>& at = axis == 1 ? b.points.y : b.points.z;
-        double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
-        for (const auto& [block, side] : {std::pair{m, 0}, std::pair{n, 1}})
-          for (std::uint32_t k = b.in.blocks[block].begin; k < b.in.blocks[block].end; ++k)
-            for (int l = 0; l < b.in.clusters[k].count; ++l) {
-              low[side] = std::min(low[side], at[b.in.clusters[k].begin + l]);
-              high[side] = std::max(high[side], at[b.in.clusters[k].begin + l]);
-            }
-        const double gap = std::max(low[0] - high[1], low[1] - high[0]);
-        nearest = axis == 1 ? gap : std::max(nearest, gap);
-      }
-      EXPECT_GT(nearest, 2 * reach);
+      EXPECT_FALSE(waits_for(b, n, m)) << "a block waits for a later one";
+      if (waits_for(b, m, n)) continue;
+      ++apart;
+      const Bounds one = box_of(b, m), other = box_of(b, n);
+      const double gap = std::max((one.low - other.high).maxCoeff(), (other.low - one.high).maxCoeff());
+      EXPECT_GT(gap, 2 * reach) << m << " " << n;
     }
+  EXPECT_GT(apart, 20);
+}
+
+/// The sequence may differ, but not which of two blocks comes first.
+TEST(Blocks, RanksDoNotDependOnThreads) {
+  const Blocks one(0.05, 1), four(0.05, 4);
+  ASSERT_EQ(one.in.block_count, four.in.block_count);
+  const auto waits = [](const Blocks& b) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  // blocks by their first particle
+    const auto name = [&](std::uint32_t block) { return b.in.clusters[b.in.blocks[block].begin].begin; };
+    for (std::uint32_t m = 0; m < b.in.block_count; ++m)
+      for (std::uint32_t k = b.in.blocks[m].first_wait; k < b.in.blocks[m].last_wait; ++k)
+        pairs.insert({name(m), name(b.in.waits[k])});
+    return pairs;
+  };
+  EXPECT_EQ(waits(one), waits(four));
+}
+
+/// Bodies far apart: no more boxes than particles call for.
+TEST(Blocks, FarApartTakesNoMemory) {
+  Blocks b(0.05);
+  for (const double far : {1e3, 1e9}) {
+    for (double* low : {&b.groups[1].grid.low[0], &b.groups[1].grid.low[1], &b.groups[1].grid.low[2]}) *low += far;
+    b.order.build(b.groups, 0.05, 1);
+    EXPECT_LT(b.order.memory_bytes(), 1000000u);
+    EXPECT_GE(b.order.block_count(), 2u);
+  }
 }
 
 }  // namespace

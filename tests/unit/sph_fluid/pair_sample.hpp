@@ -14,6 +14,7 @@
 
 #include "core/vector.hpp"
 #include "sph_fluid/pairs/blocks.hpp"
+#include "sph_fluid/pairs/pair_memory.hpp"
 #include "sph_fluid/pairs/cell_list.hpp"
 #include "sph_fluid/schemes/loops.hpp"
 
@@ -151,9 +152,9 @@ inline Result run(const Sample& sample) {
   }
 
   BlockOrder blocks;
-  blocks.build(groups, loops.support * h_largest);
   const int threads = sample.threads > 0 ? sample.threads : omp_get_max_threads();
-  std::vector<Scratch> scratch(threads);
+  blocks.build(groups, loops.support * h_largest, threads);
+  PairMemory memory(threads);
   PairInput in{};
   in.dimension = sample.dimension;
   in.kernel_scale = 1.0;
@@ -181,7 +182,7 @@ inline Result run(const Sample& sample) {
   in.alpha = sample.alpha;
   in.beta = sample.beta;
   blocks.describe(in);
-  in.scratch = scratch.data();
+  memory.describe(in);
 
   std::vector<SumRow> sums(n);
   std::vector<ForceRow> forces(m);
@@ -193,7 +194,6 @@ inline Result run(const Sample& sample) {
   if (loops.gradients) loops.gradients(in, out);
   loops.rates(in, out);
   omp_set_num_threads(before);
-  for (Scratch& s : scratch) release(s);
   for (std::size_t i = 0; i < n; ++i) {
     const double specific = 1.0 / rows[i].rho;
     Rate rate;
