@@ -60,10 +60,10 @@ struct GradientRow {
 /// Lower bound of GradientRow::filling. Half is what a plane free surface has.
 inline constexpr float least_filling = 0.5f;
 
-/// The same with the correction of kernel gradients B (xx, yy, zz, xy, yz, zx) [-]; see riemann_corrected.hpp.
+/// The same with the moments N (xx, yy, zz, xy, yz, zx) [-] that correct kernel gradients; see riemann_corrected.hpp.
 struct CorrectedRow {
   GradientRow gradient;
-  float correction[6];
+  float moment[6];
 
   using Number = float;
   static constexpr SecondRow which = SecondRow::corrected;

@@ -71,10 +71,10 @@ struct Reconstruction {
         w.volume, si);
   }
 
-  /// Of the rows that `store` has written that of particle k, and by what the rates of its pairs with gas are divided.
-  UNDEX_INLINE static GradientRow& gradient_row(void* rows, std::uint32_t k) { return static_cast<GradientRow*>(rows)[k]; }
-  UNDEX_INLINE static float divisor(const void* rows, std::uint32_t k) {
-    return static_cast<const GradientRow*>(rows)[k].filling;
+  /// Raises the filling of particle k in the rows that `store` has written.
+  UNDEX_INLINE static void fill(void* rows, std::uint32_t k, float least) {
+    float& filling = static_cast<GradientRow*>(rows)[k].filling;
+    if (filling < least) filling = least;
   }
 
   /// Gradients of up to a vector of particles from their sums, in the order of Sums.

@@ -116,15 +116,20 @@ struct Riemann {
 
   /// Returns p*.
   UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
+    return exchange(i, j, pair, pair.gas ? 2 * pair.F * filling_share(i, j) : 2 * pair.F, broadcast(T(1)), si, sj);
+  }
+
+  /// What the two give each other with a slope F for force and energy; the part of the density rate that follows their distance
+  /// has `own` times F. Returns p*.
+  UNDEX_INLINE static V exchange(const State& i, const State& j, const Pair<V>& pair, V F, V own, Sums& si, Sums& sj) {
     const auto [inverse_r, u, p_star, u_star] = flux(i, j, pair);
-    const V F = pair.gas ? 2 * pair.F * filling_share(i, j) : 2 * pair.F;
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));
     V Ci = Di, Cj = Dj;  // of the density: with the weight w
     if (pair.alike) {
       const Mask<T> approach = u < 0;
-      const V inverse = reciprocal(i.rho * j.rho);
+      const V inverse = own * reciprocal(i.rho * j.rho);
       Ci = approach ? Di * (j.rho * j.rho * inverse) : Di;
       Cj = approach ? Dj * (i.rho * i.rho * inverse) : Dj;
     }

@@ -38,9 +38,8 @@ inline double middle_of_kernel(const PairInput& in) {
   return in.shape_scale * in.kernel.norm * shape;
 }
 
-/// Gradients are those of the meridian: areas for volumes. The filling of gas is that by which the scheme's rates in the plane
-/// are divided, and at least what a ring claims by itself, V_i K_ii. It is its own neighbour: alone, with h at its bound, it
-/// would else grow by ever more.
+/// Gradients are those of the meridian: areas for volumes. The filling of gas is at least what a ring claims by itself, V_i K_ii.
+/// It is its own neighbour: alone, with h at its bound, it would else grow by ever more.
 template <class T, template <class> class Gradients>
 struct GradientsOfRings : Gradients<T> {
   using V = Vec<T>;
@@ -60,9 +59,7 @@ struct GradientsOfRings : Gradients<T> {
     const double middle = middle_of_kernel(in);
     for (std::uint32_t k = first; k < first + count; ++k) {
       const FluidRow& own = in.fluid[k];
-      const float claim = float(own.volume * in.rings[k].a * middle / (own.h * own.h));
-      const float divisor = Gradients<T>::divisor(in.second, k);
-      Gradients<T>::gradient_row(in.second, k).filling = claim > divisor ? claim : divisor;
+      Gradients<T>::fill(in.second, k, float(own.volume * in.rings[k].a * middle / (own.h * own.h)));
     }
   }
 };

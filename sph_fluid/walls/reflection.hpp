@@ -41,12 +41,12 @@ inline void continue_through(GradientRow& row, const Vec3& n) { reflect_symmetri
 
 inline void reflect(CorrectedRow& row, const Vec3& n) {
   reflect(row.gradient, n);
-  reflect_symmetric(row.correction, n);
+  reflect_symmetric(row.moment, n);
 }
 
 inline void continue_through(CorrectedRow& row, const Vec3& n) {
   continue_through(row.gradient, n);
-  reflect_symmetric(row.correction, n);
+  reflect_symmetric(row.moment, n);
 }
 
 /// An image's share of its particle's volume from the ratio of volume elements behind and in front of the wall, which is
