@@ -170,7 +170,7 @@ struct Body {
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
   /// Particles that have grown past twice their cell split, until there are this many times as many; 1: never (water/split.hpp).
-  int split = 64;
+  int split = 1;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
   std::optional<RadialMotion> radial;       ///< added too

@@ -106,6 +106,7 @@ Settings expanding(int dimension, bool rings, int threads = 1) {
   water.removed = {ball.base};
   settings.bodies = {body("gas", ball, "bubble-gas"), body("water", water, "water-tait")};
   settings.bodies[0].variable_h = true;
+  settings.bodies[0].split = 64;
   settings.bodies[0].pressure = 3e8;
   settings.bodies[0].density = 200;
   settings.bodies[1].pressure = 1e5;

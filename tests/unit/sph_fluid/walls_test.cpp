@@ -174,6 +174,7 @@ Settings ball_in_box(bool octant, SchemeName scheme) {
   const Vec3 low(-0.3, -0.3, -0.3), high(0.3, 0.3, 0.3);
   settings.bodies = {body("water", Shape{Box{low, high}, {ball}}, "water-tait"), body("bubble", Shape{ball, {}}, "bubble-gas")};
   settings.bodies[1].variable_h = true;
+  settings.bodies[1].split = 64;
   settings.walls = {box_wall(low, high)};
   settings.walls[0].faces["z_low"] = settings.walls[0].faces["z_high"] = FaceCondition::open;
   settings.symmetry.axis = {octant, octant, octant};
