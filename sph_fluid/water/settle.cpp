@@ -191,11 +191,10 @@ class Settler {
     for (const Group& group : set_.groups) {
       const int g = int(&group - set_.groups.data());
       const auto is_other = [&](int other) { return other >= 0 && set_.groups[other].spacing != group.spacing; };
-      const bool beside_others = water_.settings.axisymmetric && has_spacings();  // rings of two spacings find no rest
       for (std::uint32_t i = group.begin; i < group.end; ++i) {
         const Vec3 x = place_of(set_.particles, i);
         stays_[set_.particles.id[i]] =
-            is_laid(g) || open.any(x, set_.reach) || (beside_others && all.any(x, set_.reach, is_other));
+            is_laid(g) || open.any(x, set_.reach) || (has_spacings() && all.any(x, set_.reach, is_other));
       }
     }
   }

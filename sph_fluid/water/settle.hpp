@@ -24,9 +24,9 @@ struct Settled {
 };
 
 /// Moves the particles of `bodies` that are not at rest, and those within reach of them, until all are, or as near to that as it
-/// gets; with a larger `goal` until |g| h is below that. Left alone are particles within reach of a free surface, of bodies that
-/// a start has laid, and in a meridian of bodies with another spacing. `water` has the scene's settings and all walls; its
-/// particles become others.
+/// gets; with a larger `goal` until |g| h is below that. Left alone are particles within reach of a free surface, of bodies with
+/// another spacing and of bodies that a start has laid. `water` has the scene's settings and all walls; its particles become
+/// others.
 Settled settle(Water& water, std::vector<BodyParticles>& bodies, double goal = settled_residual, const SettleNews& news = {});
 
 }  // namespace undex::sph
