@@ -52,7 +52,7 @@ TEST(Mistakes, EachHasPlaceAndRemedy) {
        "spin, "
        "radial, "
        "pressure, "
-       "level, density, energy, burn, variable_h\n"},
+       "level, density, energy, burn, variable_h, split\n"},
       {"unknown key of a shape", with(two_gases, "low = 0.5, high = 1", "low = 0.5, high = 1, radius = 2"),
        "15:45: unknown key 'radius' in bodies.right.shape; known: type, low, high, rotate, about, move\n"},
       {"unknown key of a material", with(two_gases, "gamma = 1.4}\nenergy", "gama = 1.4}\nenergy"),
