@@ -42,7 +42,7 @@ void for_each_beside(const PairInput& in, const Vec3& x, double reach, Visit vis
       for_each_in_cells(grid, low.data(), high.data(), [&](std::uint32_t j) {
         Vec3 beside = Vec3(px[j], py[j], pz[j]) - at;
         const double r2 = beside.squaredNorm();
-        if (r2 >= reach * reach || (image == 0 && r2 == 0.0)) return;
+        if (r2 >= reach * reach || r2 == 0.0) return;  // itself
         for (int a = 0; a < 3; ++a)
           if (image >> a & 1) beside[a] = -beside[a];
         visit(beside);
