@@ -82,6 +82,8 @@ struct Riemann {
     V inverse_r, u, p_star, u_star;
   };
 
+  /// Central parts take 1/nth of the limited rises.
+  template <int nth>
   UNDEX_INLINE static Flux flux(const State& i, const State& j, const Pair<V>& pair) {
     const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
     const V inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
@@ -94,14 +96,17 @@ struct Riemann {
       return (s[0] * xx + s[1] * yy + s[2] * zz + s[3] * xy + s[4] * yz + s[5] * zx) * inverse_r;
     };
     const auto climb = [&](const V(&g)[3]) { return -(g[0] * dx + g[1] * dy + g[2] * dz); };
-    const V uL = half_limited(u, rise(i.strain)), uR = u - half_limited(u, rise(j.strain));
-    const V pL = i.p + half_limited(dp, climb(i.climb)), pR = j.p - half_limited(dp, climb(j.climb));
+    const V ui = half_limited(u, rise(i.strain)), uj = half_limited(u, rise(j.strain));
+    const V pi = half_limited(dp, climb(i.climb)), pj = half_limited(dp, climb(j.climb));
+    const V uL = ui, uR = u - uj, pL = i.p + pi, pR = j.p - pj;
 
     const V Zi = i.rho * i.c, Zj = j.rho * j.c, rho = i.rho + j.rho;
     const V inverse_Z = reciprocal(Zi + Zj);
     const V jump = uL - uR;
     const V closing = maximum(jump, V{});
-    V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
+    constexpr T part = T(2.0 / nth);  // of the halves
+    V central_p = T(0.5) * ((i.p + part * pi) + (j.p - part * pj));
+    V central_u = (Zi * (part * ui) + Zj * (u - part * uj)) * inverse_Z;
     if (pair.gas) {
       central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * reciprocal(rho);
       central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
@@ -116,13 +121,14 @@ struct Riemann {
 
   /// Returns p*.
   UNDEX_INLINE V pair(const State& i, const State& j, const Pair<V>& pair, Sums& si, Sums& sj) const {
-    return exchange(i, j, pair, pair.gas ? 2 * pair.F * filling_share(i, j) : 2 * pair.F, broadcast(T(1)), si, sj);
+    return exchange<2>(i, j, pair, pair.gas ? 2 * pair.F * filling_share(i, j) : 2 * pair.F, broadcast(T(1)), si, sj);
   }
 
-  /// What the two give each other with a slope F for force and energy; the part of the density rate that follows their distance
-  /// has `own` times F. Returns p*.
+  /// What the two give each other, with central parts as in `flux` and a slope F for force and energy; the part of the density
+  /// rate that follows their distance has `own` times F. Returns p*.
+  template <int nth>
   UNDEX_INLINE static V exchange(const State& i, const State& j, const Pair<V>& pair, V F, V own, Sums& si, Sums& sj) {
-    const auto [inverse_r, u, p_star, u_star] = flux(i, j, pair);
+    const auto [inverse_r, u, p_star, u_star] = flux<nth>(i, j, pair);
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));

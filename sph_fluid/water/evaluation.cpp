@@ -289,8 +289,11 @@ void Evaluation::pairs(ParticleSet& set, bool at_rest) {
                        .wall = lining_.forces(),
                        .images = set.images.sums(),
                        .interactions = set.interactions.data()};
-  if (at_rest && loops_.second == SecondRow::gradient && !rings_) {
+  if (at_rest && loops_.reconstructs()) {
+    // Nor is anything corrected: plain gradients are those of a potential.
     std::fill(set.particles.gradient.begin(), set.particles.gradient.end(), GradientRow{{}, {}, 1.0f});
+    std::fill(set.particles.corrected.begin(), set.particles.corrected.end(), CorrectedRow{{{}, {}, 1.0f}, {1.0f, 1.0f, 1.0f}});
+    set.images.reflect_gradients(set.particles, Vec3::Zero());
   } else if (loops_.gradients) {
     loops_.gradients(in, out);
     set.images.reflect_gradients(set.particles, settings_.gravity);

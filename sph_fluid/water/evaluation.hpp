@@ -22,7 +22,7 @@ struct Ahead {
   double time = 0;  ///< of the predicted state [s]
   double half = 0, bend = 0;
   double slow_half = 0, slow_bend = 0;
-  bool at_rest = false;  ///< all at rest under one pressure: gradients vanish
+  bool at_rest = false;  ///< all at rest under one pressure: gradients vanish, and kernel gradients stay uncorrected
   bool whole = false;    ///< a step ends here: particles that have grown may split
 };
 
