@@ -48,12 +48,14 @@ void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool r
 }
 
 void Particles::permute(std::uint32_t first, const std::vector<std::uint32_t>& order) {
+#pragma omp parallel
   for_each_array(*this, [&](Role role, auto& array) {
     const bool kept = role != Role::evaluated || !place.empty();
     if (role != Role::scratch && kept) reorder(array, first, order);
   });
 }
 
+/// Of all threads of a team together.
 template <class T>
 void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order) {
   static_assert(sizeof(T) <= sizeof(FluidRow));
@@ -61,13 +63,10 @@ void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vecto
   T* data = a.data();
   T* spare = reinterpret_cast<T*>(predicted.data());
   const std::size_t n = order.size();
-#pragma omp parallel
-  {
 #pragma omp for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) spare[k] = data[order[k]];
+  for (std::size_t k = 0; k < n; ++k) spare[k] = data[order[k]];
 #pragma omp for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
-  }
+  for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
 }
 
 void Particles::insert_after(const std::vector<std::uint32_t>& places) {
