@@ -179,16 +179,19 @@ void WallImages::add_range(const ParticleRange& range, const Particles& particle
 #pragma omp parallel
   {
     std::vector<Image>& mine = found[omp_get_thread_num()];
+    mine.reserve(images_.capacity() / std::size_t(omp_get_num_threads()));  // about as many as in the last step
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
       add_images_of(i, particles, seen, faces, walls, range.depth, settings, mine);
   }
-  for (const auto& part : found) {
+  for (auto& part : found) {
     const int before = int(images_.size());
-    for (Image image : part) {
-      if (image.parent >= 0) image.parent += before;
-      images_.push_back(image);
-    }
+    if (before == 0) images_.swap(part);
+    else
+      for (Image image : part) {
+        if (image.parent >= 0) image.parent += before;
+        images_.push_back(image);
+      }
   }
 }
 
