@@ -1,5 +1,7 @@
 #include "sph_fluid/walls/particles.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 
 namespace undex::sph {
@@ -55,18 +57,19 @@ void Particles::permute(std::uint32_t first, const std::vector<std::uint32_t>& o
   });
 }
 
-/// Of all threads of a team together.
+/// By all threads of a team together. A thread keeps its share in those predicted rows that it writes next: other ones would come
+/// from another core's cache.
 template <class T>
 void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order) {
   static_assert(sizeof(T) <= sizeof(FluidRow));
   if (a.empty()) return;
-  T* data = a.data();
-  T* spare = reinterpret_cast<T*>(predicted.data());
-  const std::size_t n = order.size();
-#pragma omp for schedule(static)
-  for (std::size_t k = 0; k < n; ++k) spare[k] = data[order[k]];
-#pragma omp for schedule(static)
-  for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
+  const std::size_t n = order.size(), t = std::size_t(omp_get_thread_num()), team = std::size_t(omp_get_num_threads());
+  const std::size_t from = n * t / team, to = n * (t + 1) / team;
+  T* const data = a.data();
+  T* const spare = reinterpret_cast<T*>(predicted.data() + first + from);
+  for (std::size_t k = from; k < to; ++k) spare[k - from] = data[order[k]];
+#pragma omp barrier
+  for (std::size_t k = from; k < to; ++k) data[first + k] = spare[k - from];
 }
 
 void Particles::insert_after(const std::vector<std::uint32_t>& places) {

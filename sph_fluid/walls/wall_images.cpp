@@ -175,16 +175,16 @@ void WallImages::see_first_places(const Settings& settings, const std::vector<Mi
 void WallImages::add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen,
                            const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Settings& settings) {
   if ((feet_.empty() && faces.empty()) || range.depth <= 0.0) return;
-  std::vector<std::vector<Image>> found(omp_get_max_threads());
+  found_.resize(std::size_t(omp_get_max_threads()));
+  for (std::vector<Image>& part : found_) part.clear();
 #pragma omp parallel
   {
-    std::vector<Image>& mine = found[omp_get_thread_num()];
-    mine.reserve(images_.capacity() / std::size_t(omp_get_num_threads()));  // about as many as in the last step
+    std::vector<Image>& mine = found_[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
       add_images_of(i, particles, seen, faces, walls, range.depth, settings, mine);
   }
-  for (auto& part : found) {
+  for (std::vector<Image>& part : found_) {
     const int before = int(images_.size());
     if (before == 0) images_.swap(part);
     else
@@ -538,6 +538,7 @@ std::size_t WallImages::memory_bytes() const {
                       corrected_.capacity() * sizeof(CorrectedRow) + viscosity_.capacity() * sizeof(ViscosityRow) +
                       ring_.capacity() * sizeof(RingRow) + sums_.capacity() * sizeof(SumRow);
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
+  for (const std::vector<Image>& part : found_) bytes += part.capacity() * sizeof(Image);
   return bytes;
 }
 
