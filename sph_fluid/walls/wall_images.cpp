@@ -417,6 +417,11 @@ void WallImages::for_each_mirror(std::uint32_t c, Visit visit) const {
   while (length-- > 0) visit(images_[chain[length]]);
 }
 
+namespace {
+/// How many images ahead rows are fetched that lie sorted by cell.
+constexpr std::uint32_t ahead = 12;
+}  // namespace
+
 void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, const RingKernel* rings) {
   rows_.resize(images_.size());
   viscosity_.resize(particles.viscosity.empty() ? 0 : images_.size());
@@ -426,6 +431,7 @@ void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, c
   sums_.assign(images_.size(), SumRow{});
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    if (c + ahead < images_.size()) __builtin_prefetch(&rows_[slot_[c + ahead]], 1);
     FluidRow row = particles.predicted[images_[c].owner];
     for_each_mirror(c, [&](const Image& image) {
       reflect(row, image.normal, image.wall_velocity, image.stretch);
@@ -486,6 +492,10 @@ WallShare WallImages::scatter(Particles& particles, const std::vector<MirrorWall
   std::vector<Left> on_wall(images_.size());
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    if (c + ahead < images_.size()) {
+      __builtin_prefetch(&sums_[slot_[c + ahead]]);
+      __builtin_prefetch(&rows_[slot_[c + ahead]]);
+    }
     // One thread takes all images of a particle, the images of images first.
     const std::uint32_t owner = images_[c].owner;
     if (c > 0 && images_[c - 1].owner == owner) continue;
