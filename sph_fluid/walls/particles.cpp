@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "sph_fluid/pairs/large_pages.hpp"
+
 namespace undex::sph {
 namespace {
 
@@ -13,6 +15,13 @@ void copy_all(std::vector<T>& to, const std::vector<T>& from) {
   to.resize(from.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+}
+
+/// Room for n, in large pages.
+template <class T>
+void reserve(std::vector<T>& array, std::size_t n) {
+  array.reserve(n);
+  ask_for_large_pages(array.data(), n * sizeof(T));
 }
 
 /// values[k] = array[place[k]]; back: array[place[k]] = values[k]. `array` may be empty.
@@ -31,7 +40,10 @@ void visit_in_order(StateVisitor& state, std::string_view name, std::vector<T>& 
 }  // namespace
 
 void Particles::resize(std::size_t n, bool with_energy) {
-  for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
+  for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) {
+    reserve(*a, n);
+    a->assign(n, 0.0);
+  }
   if (with_energy) energy.assign(n, 0.0);
   id.resize(n);
   half.assign(n, 0);
@@ -39,6 +51,11 @@ void Particles::resize(std::size_t n, bool with_energy) {
 
 void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {
   const std::size_t n = size();
+  reserve(rate, n);
+  reserve(predicted, n);
+  if (!of_stages) reserve(earlier, n);
+  if (second == SecondRow::gradient) reserve(gradient, n);
+  if (second == SecondRow::corrected) reserve(corrected, n);
   rate.assign(n, SumRow{});
   if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
   if (of_stages) keep_start();
