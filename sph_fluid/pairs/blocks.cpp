@@ -76,38 +76,53 @@ void for_each_run(const std::vector<GroupView>& groups, const Boxes& boxes, Visi
 
 int colour(int iy, int iz) { return 2 * (iz & 1) + (iy & 1); }
 
-/// Puts the boxes of a layer into a sequence, those of lower colour beside a box before it.
-class Sequence {
+/// A layer's boxes, shared out among threads and put into a sequence. Four boxes, two along y and two along z, are a square,
+/// which has all colours. A share is a run of squares, row by row: threads meet at few boxes.
+class Layer {
  public:
-  Sequence(const Boxes& boxes, int threads)
-      : boxes_(boxes), chunk_(threads > 1 ? std::max(boxes.count[1], boxes.count[2]) : 1), taken_(boxes.layer()) {}
+  explicit Layer(const Boxes& boxes) : boxes_(boxes), row_((boxes.count[1] + 1) / 2), taken_(boxes.layer()) {}
 
-  /// Calls take(iy, iz) once for every box of the layer.
-  template <class Take>
-  void walk(Take take) {
+  /// Cuts the layer into shares of about equal weight; `weight` is that of each of its boxes.
+  void share_out(const std::uint32_t* weight, int shares) {
+    std::vector<std::uint64_t> before(std::size_t(row_) * ((boxes_.count[2] + 1) / 2) + 1, 0);
+    for (int iz = 0; iz < boxes_.count[2]; ++iz)
+      for (int iy = 0; iy < boxes_.count[1]; ++iy) before[square(iy, iz) + 1] += weight[boxes_.index(0, iy, iz)];
+    for (std::size_t k = 1; k < before.size(); ++k) before[k] += before[k - 1];
+    first_.assign(shares + 1, int(before.size() - 1));
+    for (int t = 0, k = 0; t < shares; ++t) {
+      while (before[k] * shares < before.back() * t) ++k;
+      first_[t] = k;
+    }
     std::fill(taken_.begin(), taken_.end(), 0);
-    for (int z = 0; z < boxes_.count[2]; z += chunk_)
-      for (int y = 0; y < boxes_.count[1]; y += chunk_)
-        for (int c = 0; c < 4; ++c)
-          for (int iz = z; iz < std::min(z + chunk_, boxes_.count[2]); ++iz)
-            for (int iy = y; iy < std::min(y + chunk_, boxes_.count[1]); ++iy)
-              if (colour(iy, iz) == c) reach(iy, iz, take);
+  }
+
+  /// Calls take(iy, iz) once for every box of a share, those of lower colour beside a box before it.
+  template <class Take>
+  void walk(int share, Take take) {
+    const int first = first_[share], last = first_[share + 1];
+    if (first == last) return;
+    for (int iz = 2 * (first / row_); iz < std::min(2 * ((last - 1) / row_) + 2, boxes_.count[2]); ++iz)
+      for (int iy = 0; iy < boxes_.count[1]; ++iy) reach(iy, iz, first, last, take);
   }
 
  private:
+  int square(int iy, int iz) const { return iz / 2 * row_ + iy / 2; }
+
   template <class Take>
-  void reach(int iy, int iz, Take& take) {
+  void reach(int iy, int iz, int first, int last, Take& take) {
+    if (square(iy, iz) < first || square(iy, iz) >= last) return;
     unsigned char& taken = taken_[boxes_.index(0, iy, iz)];
     if (taken) return;
     taken = 1;
     for (int z = std::max(iz - 1, 0); z <= std::min(iz + 1, boxes_.count[2] - 1); ++z)
       for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, boxes_.count[1] - 1); ++y)
-        if (colour(y, z) < colour(iy, iz)) reach(y, z, take);
+        if (colour(y, z) < colour(iy, iz)) reach(y, z, first, last, take);
     take(iy, iz);
   }
 
   const Boxes& boxes_;
-  int chunk_;  // boxes along y and z that are taken together
+  int row_;                 // squares along y
+  std::vector<int> first_;  // square of each share
   std::vector<unsigned char> taken_;
 };
 
@@ -120,33 +135,50 @@ void BlockOrder::build(const std::vector<GroupView>& groups, double reach, int t
     next_[box] += (end - begin + cluster_size - 1) / cluster_size;
   });
 
-  blocks_.clear();
-  waits_.clear();
-  std::uint32_t clusters = 0;
-  // Of the layer before and of this one: the block of each box.
-  std::vector<std::uint32_t> before, here;
-  Sequence sequence(boxes, threads);
+  // The sequence of each thread, layer after layer.
+  struct Place {
+    int ix, iy, iz;
+  };
+  std::vector<std::vector<Place>> sequences(threads);
+  Layer layer(boxes);
   for (int ix = 0; ix < boxes.count[0]; ++ix) {
-    std::swap(before, here);
-    here.assign(boxes.layer(), none);
-    sequence.walk([&](int iy, int iz) {
-      std::uint32_t& slot = next_[boxes.index(ix, iy, iz)];
-      if (slot == 0) return;
-      Block block{.begin = clusters, .end = clusters + slot, .first_wait = std::uint32_t(waits_.size()), .last_wait = 0};
+    layer.share_out(&next_[boxes.index(ix, 0, 0)], threads);
+    for (int t = 0; t < threads; ++t)
+      layer.walk(t, [&](int iy, int iz) {
+        if (next_[boxes.index(ix, iy, iz)] > 0) sequences[t].push_back({ix, iy, iz});
+      });
+  }
+
+  blocks_.clear();
+  std::vector<std::uint32_t> shares = {0}, block_of(next_.size(), none);
+  std::uint32_t clusters = 0;
+  for (const std::vector<Place>& sequence : sequences) {
+    for (const auto& [ix, iy, iz] : sequence) {
+      const std::size_t box = boxes.index(ix, iy, iz);
+      block_of[box] = std::uint32_t(blocks_.size());
+      blocks_.push_back({.begin = clusters, .end = clusters + next_[box], .first_wait = 0, .last_wait = 0});
+      next_[box] = clusters;
+      clusters = blocks_.back().end;
+    }
+    shares.push_back(std::uint32_t(blocks_.size()));
+  }
+
+  waits_.clear();
+  Block* block = blocks_.data();
+  for (const std::vector<Place>& sequence : sequences)
+    for (const auto& [ix, iy, iz] : sequence) {
+      block->first_wait = std::uint32_t(waits_.size());
       for (int z = std::max(iz - 1, 0); z <= std::min(iz + 1, boxes.count[2] - 1); ++z)
         for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, boxes.count[1] - 1); ++y) {
-          const std::size_t box = boxes.index(0, y, z);
-          if (ix > 0 && before[box] != none) waits_.push_back(before[box]);
-          if (colour(y, z) < colour(iy, iz) && here[box] != none) waits_.push_back(here[box]);
+          const std::uint32_t before = ix > 0 ? block_of[boxes.index(ix - 1, y, z)] : none;
+          const std::uint32_t beside = colour(y, z) < colour(iy, iz) ? block_of[boxes.index(ix, y, z)] : none;
+          if (before != none) waits_.push_back(before);
+          if (beside != none) waits_.push_back(beside);
         }
-      block.last_wait = std::uint32_t(waits_.size());
-      here[boxes.index(0, iy, iz)] = std::uint32_t(blocks_.size());
-      blocks_.push_back(block);
-      slot = clusters;
-      clusters = block.end;
-    });
-  }
-  finished_.resize(blocks_.size());
+      (block++)->last_wait = std::uint32_t(waits_.size());
+    }
+  if (!queue_) queue_ = std::make_unique<BlockQueue>();
+  queue_->fill(blocks_, waits_, shares);
 
   clusters_.resize(clusters);
   for_each_run(groups, boxes, [&](std::size_t box, std::uint32_t begin, std::uint32_t end, std::uint16_t group) {
@@ -160,12 +192,12 @@ void BlockOrder::describe(PairInput& in) {
   in.blocks = blocks_.data();
   in.block_count = std::uint32_t(blocks_.size());
   in.waits = waits_.data();
-  in.finished = finished_.data();
+  in.queue = queue_.get();
 }
 
 std::size_t BlockOrder::memory_bytes() const {
   return clusters_.capacity() * sizeof(Cluster) + blocks_.capacity() * sizeof(Block) +
-         4 * (waits_.capacity() + next_.capacity()) + finished_.capacity();
+         4 * (waits_.capacity() + next_.capacity()) + (queue_ ? queue_->memory_bytes() : 0);
 }
 
 }  // namespace undex::sph

@@ -147,7 +147,7 @@ UNDEX_INLINE void scan_grid(const CellGrid& grid, const Box3& box, double reach,
     const double dz = gap(box.low[2], box.high[2], z_low, z_low + grid.size[2]);
     for (int iy = first[1]; iy <= last[1]; ++iy) {
       const std::uint32_t* row = grid.start + std::size_t(iz * std::size_t(grid.count[1]) + iy) * grid.count[0];
-      if (row[last[0] + 1] <= from) continue;
+      if (row[last[0] + 1] <= from || row[first[0]] == row[last[0] + 1]) continue;
       const double y_low = grid.low[1] + iy * grid.size[1];
       const double dy = gap(box.low[1], box.high[1], y_low, y_low + grid.size[1]);
       const double left2 = reach2 - dy * dy - dz * dz;

@@ -9,21 +9,20 @@
 namespace undex::sph {
 namespace {
 
-struct Range {
-  double low, high;
-};
-
-Range range_of(const double* a, std::uint32_t first, std::uint32_t last) {
-  double low = 1e300, high = -1e300;
+/// Bounds of particles first..last along the three axes, into low and high.
+void find_bounds(const double* const axes[3], std::uint32_t first, std::uint32_t last, double low[3], double high[3]) {
+  const double *const x = axes[0], *const y = axes[1], *const z = axes[2];
+  double x0 = 1e300, y0 = 1e300, z0 = 1e300, x1 = -1e300, y1 = -1e300, z1 = -1e300;
   bool finite = true;
-#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high) reduction(&& : finite)
+#pragma omp parallel for schedule(static) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1) reduction(&& : finite)
   for (std::uint32_t i = first; i < last; ++i) {
-    finite = finite && std::isfinite(a[i]);
-    low = std::min(low, a[i]);
-    high = std::max(high, a[i]);
+    finite = finite && std::isfinite(x[i]) && std::isfinite(y[i]) && std::isfinite(z[i]);
+    x0 = std::min(x0, x[i]), y0 = std::min(y0, y[i]), z0 = std::min(z0, z[i]);
+    x1 = std::max(x1, x[i]), y1 = std::max(y1, y[i]), z1 = std::max(z1, z[i]);
   }
   if (!finite) throw std::domain_error("a particle's position is not finite");
-  return {low, high};
+  low[0] = x0, low[1] = y0, low[2] = z0;
+  high[0] = x1, high[1] = y1, high[2] = z1;
 }
 
 }  // namespace
@@ -33,11 +32,8 @@ void CellList::build(const double* x, const double* y, const double* z, std::uin
   first_ = first;
   const std::uint32_t n = last - first;
   const double* axes[3] = {x, y, z};
-  for (int a = 0; a < 3; ++a) {
-    const Range range = n > 0 ? range_of(axes[a], first, last) : Range{0.0, 0.0};
-    grid_.bound_low[a] = range.low;
-    grid_.bound_high[a] = range.high;
-  }
+  for (int a = 0; a < 3; ++a) grid_.bound_low[a] = grid_.bound_high[a] = 0.0;
+  if (n > 0) find_bounds(axes, first, last, grid_.bound_low, grid_.bound_high);
   // Stray particles stretch the box: then wider cells, not more memory.
   const double limit = 4.0 * n + 4096.0;
   double cells;

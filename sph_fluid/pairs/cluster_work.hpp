@@ -5,7 +5,6 @@
 #pragma once
 
 #include <omp.h>
-#include <sched.h>
 
 #include "sph_fluid/pairs/candidates.hpp"
 #include "sph_fluid/pairs/pair_pass.hpp"
@@ -361,11 +360,14 @@ class ClusterWork {
   int piece_count_ = 0;
 };
 
-/// Waits until the blocks that come before this one and may add to the same particles are done.
-void wait_for_neighbours(const PairInput& in, const Block& block) {
-  for (std::uint32_t k = block.first_wait; k < block.last_wait; ++k)
-    for (int spins = 0; !__atomic_load_n(&in.finished[in.waits[k]], __ATOMIC_ACQUIRE); ++spins)
-      spins < 1000 ? (void)_mm_pause() : (void)sched_yield();
+/// The clusters of a block. Returns the number of true neighbours met, directed.
+template <class Kernel, template <class> class Scheme, class T>
+__attribute__((noinline)) long long work_on(const PairInput& in, const Scheme<T>& scheme, const Block& block, Scratch& scratch,
+                                            const PairOutput& out) {
+  long long met = 0;
+  for (std::uint32_t k = block.begin; k < block.end; ++k)
+    met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], scratch, out).run();
+  return met;
 }
 
 template <LoopKernel Kernel, template <class> class Scheme, class T>
@@ -373,15 +375,11 @@ requires PairPass<Scheme<T>>
 void pass(const PairInput& in, const PairOutput& out) {
   const Scheme<T> scheme(in);
   if constexpr (packed<Scheme<T>, T>) pack<typename Scheme<T>::State::Second>(in);
-  for (std::uint32_t b = 0; b < in.block_count; ++b) in.finished[b] = 0;
-#pragma omp parallel for schedule(monotonic : dynamic, 1)
-  for (std::uint32_t b = 0; b < in.block_count; ++b) {
-    if (Scheme<T>::symmetric) wait_for_neighbours(in, in.blocks[b]);
-    long long met = 0;
-    for (std::uint32_t k = in.blocks[b].begin; k < in.blocks[b].end; ++k)
-      met += ClusterWork<Kernel, Scheme, T>(in, scheme, in.clusters[k], in.scratch[omp_get_thread_num()], out).run();
-    out.interactions[b] = met;
-    __atomic_store_n(&in.finished[b], (unsigned char)1, __ATOMIC_RELEASE);
+  start(*in.queue, Scheme<T>::symmetric ? Turns::in_order : Turns::any);
+#pragma omp parallel
+  for (std::uint32_t b; (b = take(*in.queue, omp_get_thread_num())) < in.block_count;) {
+    out.interactions[b] = work_on<Kernel, Scheme, T>(in, scheme, in.blocks[b], in.scratch[omp_get_thread_num()], out);
+    finish(*in.queue, b);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <new>
 #include <type_traits>
 
+#include "sph_fluid/pairs/large_pages.hpp"
+
 namespace undex::sph {
 
 KernelChoice kernel_choice(KernelName name, int dimension) {
@@ -54,11 +56,12 @@ void grow(SingleRows& rows, std::size_t particles, int main, int tail) {
   const auto enlarge = [](std::size_t& bytes, std::size_t wanted, auto*&... arrays) {
     if (wanted <= bytes) return;
     bytes = 0;
-    const std::size_t room = (wanted + wanted / 8 + 63) / 64 * 64;
-    const auto renew = [room](auto*& data) {
+    const std::size_t page = wanted < large_page ? 64 : large_page, room = (wanted + wanted / 8 + page - 1) / page * page;
+    const auto renew = [room, page](auto*& data) {
       std::free(data);
-      data = static_cast<std::remove_reference_t<decltype(data)>>(std::aligned_alloc(64, room));
+      data = static_cast<std::remove_reference_t<decltype(data)>>(std::aligned_alloc(page, room));
       if (data == nullptr) throw std::bad_alloc();
+      ask_for_large_pages(data, room);
     };
     (renew(arrays), ...);
     bytes = room;

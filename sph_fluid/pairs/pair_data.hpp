@@ -91,6 +91,13 @@ struct Block {
   std::uint32_t first_wait, last_wait;  ///< in PairInput::waits
 };
 
+/// Hands the blocks to threads; see block_queue.hpp.
+class BlockQueue;
+enum class Turns { in_order, any };
+void start(BlockQueue&, Turns);
+std::uint32_t take(BlockQueue&, int thread);
+void finish(BlockQueue&, std::uint32_t block);
+
 /// Buffers of one thread for the candidates of a cluster, grown on demand.
 struct Scratch {
   void* blocks = nullptr;  ///< what the pairs read of them
@@ -158,10 +165,10 @@ struct PairInput {
   bool partly;         ///< only clusters within `margin` of the box are worked on
   double disturbed_low[3], disturbed_high[3], margin;  ///< [m]
   const Cluster* clusters;                             ///< sorted by block
-  const Block* blocks;                                 ///< in the order of work
+  const Block* blocks;                                 ///< thread by thread, in the order of work
   std::uint32_t block_count;
   const std::uint32_t* waits;  ///< places in `blocks`
-  unsigned char* finished;     ///< one flag per block, for the loops' own use
+  BlockQueue* queue;           ///< of the blocks
   Scratch* scratch;            ///< one per thread
   SingleRows* single;          ///< of particles and of images, for the loops' own use
   FixedFrame* frame;           ///< theirs

@@ -21,12 +21,12 @@ struct SingleLayout {
   static constexpr bool serves = alone || same_type<typename Second::Number, float>;
 };
 
-/// Packs particles first..last.
+/// Packs particles 0..count: all threads of a team together, as the next.
 template <class Second>
-void pack(const FluidRow* fluid, const Second* second, std::uint32_t first, std::uint32_t last, const SingleRows& to) {
+void pack_rows(const FluidRow* fluid, const Second* second, std::uint32_t count, const SingleRows& to) {
   using Layout = SingleLayout<Second>;
-#pragma omp parallel for schedule(static)
-  for (std::uint32_t i = first; i < last; ++i) {
+#pragma omp for schedule(static) nowait
+  for (std::uint32_t i = 0; i < count; ++i) {
     float* const main = to.main + std::size_t(i) * Layout::main;
     const double* const from = numbers(fluid + i);
     for (int k = 0; k < 8; ++k) main[k] = float(from[k]);
@@ -66,11 +66,11 @@ inline FixedFrame frame_over(const PairInput& in) {
   return frame;
 }
 
-/// Places first..last along one axis.
-inline void pack_places(const double* x, std::uint32_t first, std::uint32_t last, double low, double unit, std::int32_t* to) {
+/// Their places along one axis.
+inline void pack_places(const double* x, std::uint32_t count, double low, double unit, std::int32_t* to) {
   const double inverse = 1.0 / unit;
-#pragma omp parallel for schedule(static)
-  for (std::uint32_t i = first; i < last; ++i) to[i] = std::int32_t(x[i] * inverse - low);
+#pragma omp for schedule(static) nowait
+  for (std::uint32_t i = 0; i < count; ++i) to[i] = std::int32_t(x[i] * inverse - low);
 }
 
 /// Packs all particles and images of a pass.
@@ -83,14 +83,15 @@ void pack(const PairInput& in) {
     std::uint32_t& last = end[in.groups[g].images_of >= 0];
     last = in.groups[g].end > last ? in.groups[g].end : last;
   }
+  for (int images = 0; images < 2; ++images)
+    if (end[images] > 0) grow(in.single[images], end[images], Layout::main, Layout::tail);
+#pragma omp parallel
   for (int images = 0; images < 2; ++images) {
-    if (end[images] == 0) continue;
-    grow(in.single[images], end[images], Layout::main, Layout::tail);
-    pack(images ? in.images.fluid : in.fluid, static_cast<const Second*>(images ? in.images.second : in.second), 0, end[images],
-         in.single[images]);
+    const SingleRows& to = in.single[images];
+    pack_rows(images ? in.images.fluid : in.fluid, static_cast<const Second*>(images ? in.images.second : in.second), end[images],
+              to);
     const double* const axes[2][3] = {{in.x, in.y, in.z}, {in.images.x, in.images.y, in.images.z}};
-    for (int a = 0; a < 3; ++a)
-      pack_places(axes[images][a], 0, end[images], in.frame->low[a], in.frame->unit[a], in.single[images].place[a]);
+    for (int a = 0; a < 3; ++a) pack_places(axes[images][a], end[images], in.frame->low[a], in.frame->unit[a], to.place[a]);
   }
 }
 

@@ -1,6 +1,10 @@
 #include "sph_fluid/walls/particles.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
+
+#include "sph_fluid/pairs/large_pages.hpp"
 
 namespace undex::sph {
 namespace {
@@ -11,6 +15,13 @@ void copy_all(std::vector<T>& to, const std::vector<T>& from) {
   to.resize(from.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+}
+
+/// Room for n, in large pages.
+template <class T>
+void reserve(std::vector<T>& array, std::size_t n) {
+  array.reserve(n);
+  ask_for_large_pages(array.data(), n * sizeof(T));
 }
 
 /// values[k] = array[place[k]]; back: array[place[k]] = values[k]. `array` may be empty.
@@ -29,7 +40,10 @@ void visit_in_order(StateVisitor& state, std::string_view name, std::vector<T>& 
 }  // namespace
 
 void Particles::resize(std::size_t n, bool with_energy) {
-  for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
+  for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) {
+    reserve(*a, n);
+    a->assign(n, 0.0);
+  }
   if (with_energy) energy.assign(n, 0.0);
   id.resize(n);
   half.assign(n, 0);
@@ -37,6 +51,11 @@ void Particles::resize(std::size_t n, bool with_energy) {
 
 void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {
   const std::size_t n = size();
+  reserve(rate, n);
+  reserve(predicted, n);
+  if (!of_stages) reserve(earlier, n);
+  if (second == SecondRow::gradient) reserve(gradient, n);
+  if (second == SecondRow::corrected) reserve(corrected, n);
   rate.assign(n, SumRow{});
   if (second == SecondRow::viscosity) viscosity.assign(n, {alpha});
   if (of_stages) keep_start();
@@ -48,26 +67,26 @@ void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool r
 }
 
 void Particles::permute(std::uint32_t first, const std::vector<std::uint32_t>& order) {
+#pragma omp parallel
   for_each_array(*this, [&](Role role, auto& array) {
     const bool kept = role != Role::evaluated || !place.empty();
     if (role != Role::scratch && kept) reorder(array, first, order);
   });
 }
 
+/// By all threads of a team together. A thread keeps its share in those predicted rows that it writes next: other ones would come
+/// from another core's cache.
 template <class T>
 void Particles::reorder(std::vector<T>& a, std::uint32_t first, const std::vector<std::uint32_t>& order) {
   static_assert(sizeof(T) <= sizeof(FluidRow));
   if (a.empty()) return;
-  T* data = a.data();
-  T* spare = reinterpret_cast<T*>(predicted.data());
-  const std::size_t n = order.size();
-#pragma omp parallel
-  {
-#pragma omp for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) spare[k] = data[order[k]];
-#pragma omp for schedule(static)
-    for (std::size_t k = 0; k < n; ++k) data[first + k] = spare[k];
-  }
+  const std::size_t n = order.size(), t = std::size_t(omp_get_thread_num()), team = std::size_t(omp_get_num_threads());
+  const std::size_t from = n * t / team, to = n * (t + 1) / team;
+  T* const data = a.data();
+  T* const spare = reinterpret_cast<T*>(predicted.data() + first + from);
+  for (std::size_t k = from; k < to; ++k) spare[k - from] = data[order[k]];
+#pragma omp barrier
+  for (std::size_t k = from; k < to; ++k) data[first + k] = spare[k - from];
 }
 
 void Particles::insert_after(const std::vector<std::uint32_t>& places) {

@@ -85,7 +85,7 @@ inline bool may_show(const SlipFaces& faces, const Vec3& x, double depth) {
 /// Calls visit(Reflection) for all images between and behind the faces of a pair: a series on either side, each image of the last
 /// in the other face.
 template <class Visit>
-void images_in(const SlipFaces::Pair& faces, const Vec3& x, double depth, int dimension, Visit visit) {
+void images_in(const SlipFaces::Pair& faces, const Vec3& x, double depth, int dimension, const Visit& visit) {
   const double at = x[faces.axis];
   if (at - faces.low >= depth && faces.high - at >= depth) return;  // most
   if (at < faces.low || at > faces.high) return;

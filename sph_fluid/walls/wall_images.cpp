@@ -175,20 +175,23 @@ void WallImages::see_first_places(const Settings& settings, const std::vector<Mi
 void WallImages::add_range(const ParticleRange& range, const Particles& particles, const SeenMirrors& seen,
                            const SlipFaces& faces, const std::vector<MirrorWall>& walls, const Settings& settings) {
   if ((feet_.empty() && faces.empty()) || range.depth <= 0.0) return;
-  std::vector<std::vector<Image>> found(omp_get_max_threads());
+  found_.resize(std::size_t(omp_get_max_threads()));
+  for (std::vector<Image>& part : found_) part.clear();
 #pragma omp parallel
   {
-    std::vector<Image>& mine = found[omp_get_thread_num()];
+    std::vector<Image>& mine = found_[omp_get_thread_num()];
 #pragma omp for schedule(static)
     for (std::uint32_t i = range.first; i < range.last; ++i)
       add_images_of(i, particles, seen, faces, walls, range.depth, settings, mine);
   }
-  for (const auto& part : found) {
+  for (std::vector<Image>& part : found_) {
     const int before = int(images_.size());
-    for (Image image : part) {
-      if (image.parent >= 0) image.parent += before;
-      images_.push_back(image);
-    }
+    if (before == 0) images_.swap(part);
+    else
+      for (Image image : part) {
+        if (image.parent >= 0) image.parent += before;
+        images_.push_back(image);
+      }
   }
 }
 
@@ -414,6 +417,11 @@ void WallImages::for_each_mirror(std::uint32_t c, Visit visit) const {
   while (length-- > 0) visit(images_[chain[length]]);
 }
 
+namespace {
+/// How many images ahead rows are fetched that lie sorted by cell.
+constexpr std::uint32_t ahead = 12;
+}  // namespace
+
 void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, const RingKernel* rings) {
   rows_.resize(images_.size());
   viscosity_.resize(particles.viscosity.empty() ? 0 : images_.size());
@@ -423,6 +431,7 @@ void WallImages::reflect_rows(const Particles& particles, const Vec3& gravity, c
   sums_.assign(images_.size(), SumRow{});
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    if (c + ahead < images_.size()) __builtin_prefetch(&rows_[slot_[c + ahead]], 1);
     FluidRow row = particles.predicted[images_[c].owner];
     for_each_mirror(c, [&](const Image& image) {
       reflect(row, image.normal, image.wall_velocity, image.stretch);
@@ -483,6 +492,10 @@ WallShare WallImages::scatter(Particles& particles, const std::vector<MirrorWall
   std::vector<Left> on_wall(images_.size());
 #pragma omp parallel for schedule(static)
   for (std::uint32_t c = 0; c < images_.size(); ++c) {
+    if (c + ahead < images_.size()) {
+      __builtin_prefetch(&sums_[slot_[c + ahead]]);
+      __builtin_prefetch(&rows_[slot_[c + ahead]]);
+    }
     // One thread takes all images of a particle, the images of images first.
     const std::uint32_t owner = images_[c].owner;
     if (c > 0 && images_[c - 1].owner == owner) continue;
@@ -535,6 +548,7 @@ std::size_t WallImages::memory_bytes() const {
                       corrected_.capacity() * sizeof(CorrectedRow) + viscosity_.capacity() * sizeof(ViscosityRow) +
                       ring_.capacity() * sizeof(RingRow) + sums_.capacity() * sizeof(SumRow);
   for (const CellList& cells : cells_) bytes += cells.memory_bytes();
+  for (const std::vector<Image>& part : found_) bytes += part.capacity() * sizeof(Image);
   return bytes;
 }
 

@@ -129,10 +129,11 @@ class WallImages {
   std::vector<Sheets> lining_sheets_;
   Sight sight_;
   std::vector<SeenImage::Glass> glasses_;
-  std::vector<SeenImage> shown_;     // sorted by cell
-  std::vector<WallFoot> feet_;       // sorted by particle
-  std::vector<Image> images_;        // by particle, parents before their images
-  std::vector<std::uint32_t> slot_;  // place of an image in the arrays below
+  std::vector<SeenImage> shown_;           // sorted by cell
+  std::vector<WallFoot> feet_;             // sorted by particle
+  std::vector<Image> images_;              // by particle, parents before their images
+  std::vector<std::vector<Image>> found_;  // by each thread, of the present range
+  std::vector<std::uint32_t> slot_;        // place of an image in the arrays below
   std::vector<std::uint32_t> begin_;
   std::vector<CellList> cells_;
   std::vector<double> x_, y_, z_;  // sorted by cell, as the next

@@ -49,7 +49,7 @@ TOPS = {"sph_fluid": ["core", "materials", "sph_fluid/pairs", "sph_fluid/schemes
 # What is compiled once per instruction set, and all that it includes, may know of libraries only what instantiates no template:
 # the linker could keep the copy of the highest instruction set for everybody.
 PER_LEVEL = ["sph_fluid/pairs/cluster_work.hpp", "sph_fluid/schemes/*.hpp", "sph_solid/solid_schemes.hpp", "sph_solid/solid_loop.cpp"]
-PER_LEVEL_LIBRARIES = {"cmath", "cstddef", "cstdint", "immintrin.h", "numbers", "omp.h", "sched.h", "utility"}
+PER_LEVEL_LIBRARIES = {"cmath", "cstddef", "cstdint", "immintrin.h", "numbers", "omp.h", "utility"}
 # Headers of fem_structure that other modules see; what they include must be free of deal.II too.
 PUBLIC_OF_FEM = ["structure.hpp", "settings.hpp"]
 

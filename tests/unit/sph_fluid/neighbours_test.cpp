@@ -209,7 +209,7 @@ TEST(PairLoops, ThreadsDoNotChangeASum) {
     }
     sample.threads = 1;
     const Result one = run(sample);
-    for (const int threads : {2, 3, 7}) {
+    for (const int threads : {2, 3, 4, 8}) {
       sample.threads = threads;
       const Result many = run(sample);
       EXPECT_EQ(many.interactions, one.interactions);

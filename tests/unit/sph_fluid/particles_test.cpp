@@ -1,9 +1,13 @@
 // What is done with particles is done with all of their arrays.
+#include "sph_fluid/pairs/large_pages.hpp"
+#include "sph_fluid/pairs/pair_data.hpp"
 #include "sph_fluid/walls/particles.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace undex::sph {
 namespace {
@@ -91,6 +95,25 @@ TEST(Particles, EveryVectorIsReflected) {
   EXPECT_EQ(p.start.vx[2], 0.0);
   EXPECT_EQ(p.other[2].earlier.ax, 0.0f);
   EXPECT_EQ(filling(p.x, 1), 2);
+}
+
+/// Wherever an array begins and however long it is, asking changes nothing that can be read.
+TEST(LargePages, AreAWish) {
+  std::vector<unsigned char> bytes(3 * large_page + 12345, 7);
+  for (const std::size_t begin : {std::size_t(0), std::size_t(1), large_page - 3})
+    for (const std::size_t length : {std::size_t(0), std::size_t(100), large_page, 2 * large_page + 1})
+      ask_for_large_pages(bytes.data() + begin, length);
+  ask_for_large_pages(nullptr, 0);
+  EXPECT_TRUE(std::all_of(bytes.begin(), bytes.end(), [](unsigned char byte) { return byte == 7; }));
+  SingleRows rows;
+  for (const std::size_t particles : {10u, 200000u, 300000u}) {
+    grow(rows, particles, 16, 8);
+    std::fill_n(rows.main, 16 * particles, 1.0f);
+    std::fill_n(rows.tail, 8 * particles, 2.0f);
+    for (std::int32_t* place : rows.place) std::fill_n(place, particles + 16, 3);
+    EXPECT_EQ(rows.main[16 * particles - 1], 1.0f);
+  }
+  release(rows);
 }
 
 }  // namespace
