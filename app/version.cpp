@@ -12,7 +12,7 @@ const char* const compiler = "g++ " __VERSION__;
 #endif
 
 /// Raised with every change after which a scene gives other digits: a checkpoint of before is then refused.
-constexpr int numerics_version = 9;
+constexpr int numerics_version = 10;
 
 std::string build_type() { return *UNDEX_BUILD_TYPE ? UNDEX_BUILD_TYPE : "none"; }
 

@@ -52,6 +52,14 @@ inline std::vector<Variant> variants() {
       }
     all = longer;
   }
+  for (const Precision precision : {Precision::full, Precision::mixed}) {
+    Variant corrected{
+        precision == Precision::full ? "riemann_corrected/wendland_c2_1.1" : "riemann_corrected/wendland_c2_1.1/mixed", {}};
+    corrected.numerics.scheme = SchemeName::riemann_corrected;
+    corrected.numerics.eta = sph::default_eta(KernelName::wendland_c2, SchemeName::riemann_corrected, true);
+    corrected.numerics.precision = precision;
+    all.push_back(corrected);
+  }
   for (const auto& [name, space] : {std::pair("square", Space::square), {"cylinder", Space::cylinder}})
     for (const Variant& cube : std::vector<Variant>(all))
       if (cube.space == Space::cube && cube.numerics.kernel == KernelName::wendland_c2 && cube.numerics.eta == 1.5)
