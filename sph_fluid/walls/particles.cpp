@@ -32,7 +32,7 @@ void Particles::resize(std::size_t n, bool with_energy) {
   for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &rho, &mass}) a->assign(n, 0.0);
   if (with_energy) energy.assign(n, 0.0);
   id.resize(n);
-  half.assign(n, 0);
+  halvings.assign(n, 0);
 }
 
 void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {

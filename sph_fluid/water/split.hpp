@@ -25,10 +25,11 @@ inline double even_growth(double growth, bool half) {
   return std::max(std::min(half ? full_growth * growth : growth, even), growth * even / full_growth);
 }
 
-/// A particle, and how far from its place its halves stand: one by plus, one by minus that [m].
+/// A particle, and how its halves differ from it, one by plus, one by minus that.
 struct Split {
   std::uint32_t particle;
-  Vec3 offset;
+  Vec3 offset;                  ///< of their places [m]
+  Vec3 parting = Vec3::Zero();  ///< of their velocities, along the offset: no angular momentum [m/s]
 };
 
 /// Has a particle of the set grown so far by `time` [s]?
@@ -36,7 +37,8 @@ bool any_has_grown(const ParticleSet& set, const Settings& settings, double time
 /// All that have, in the order of memory, with their neighbours seen: `in` has the particles and images of the evaluation that is
 /// under way.
 std::vector<Split> find_splits(const ParticleSet& set, const Settings& settings, double time, const PairInput& in);
-/// They become two. One half keeps the number (id), the other has a new one after all others'.
-void split(ParticleSet& set, const std::vector<Split>& splits);
+/// They become two. One half keeps the number (id), the other has a new one after all others'. The energy of their parting comes
+/// from their heat; returns what bodies without an energy field owe [J].
+double split(ParticleSet& set, const std::vector<Split>& splits);
 
 }  // namespace undex::sph
