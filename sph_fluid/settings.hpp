@@ -174,7 +174,7 @@ struct Body {
   std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
-  /// Particles that have grown past twice their cell split, one that was laid into this many at most; 1: never (water/split.hpp).
+  /// Particles that have grown past twice their width split, one that was laid into this many at most; 1: never (split.hpp).
   int split = 1;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
@@ -254,7 +254,7 @@ void describe(Body& body, Visit&& visit) {
          .range = Range::between(1, 10000),
          .rule = "64 for gases and charges whose law has an energy, else 1",
          .used = body.variable_h,
-         .meaning = "where it does: particles that have grown past twice their volume on the lattice split in two, one that was "
+         .meaning = "where it does: particles that have grown past twice their width on the lattice split in two, one that was "
                     "laid into this many at most; 1: never"});
 }
 

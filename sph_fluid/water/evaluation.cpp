@@ -185,7 +185,8 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
     if (rings_) q.vz = variable ? ring_area(q.volume, r) : q.volume / (2.0 * std::numbers::pi * r);
     if (variable) {
       const double growth = (rings_ ? q.vz : q.volume) / cell;
-      const double wanted = std::pow(group.body->split > 1 ? even_growth(growth, p.halvings[i] > 0) : growth, inverse_dimension);
+      const double wanted = std::pow(group.body->split > 1 ? even_growth(growth, p.halvings[i] > 0, settings_.dimension) : growth,
+                                     inverse_dimension);
       held += wanted < low || wanted > high;
       q.h *= std::clamp(wanted, low, high);
       h_max = std::max(h_max, q.h);

@@ -22,7 +22,7 @@ Vec3 velocity_of(const FluidRow& row, bool rings) { return {row.vx, row.vy, ring
 
 /// At which a particle splits.
 double full_size(const Settings& settings, const Group& group) {
-  return full_growth * std::pow(group.spacing, settings.dimension);
+  return full_growth(settings.dimension) * std::pow(group.spacing, settings.dimension);
 }
 
 /// Explosive waits until it has burnt, for its halves have no lighting time.
