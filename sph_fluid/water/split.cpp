@@ -134,8 +134,12 @@ std::optional<Split> split_of(const ParticleSet& set, const Settings& settings, 
     const double along = std::abs(other.x.dot(n)), r2 = other.x.squaredNorm();
     if (4.0 * far * along > r2) far = 0.25 * r2 / along;
   });
-  const double most = 0.5 * in.fluid[i].c;  // they part no faster than sound
-  return Split{.particle = i, .offset = far * n, .parting = std::clamp(far * opening_rate(in, i, reach, n), -most, most) * n};
+  const double most = 0.5 * in.fluid[i].c;                          // they part no faster than sound
+  const double outward = settings.axisymmetric ? far * n[0] : 0.0;  // at most half of the radius, by the ring's own image
+  return Split{.particle = i,
+               .offset = far * n,
+               .parting = std::clamp(far * opening_rate(in, i, reach, n), -most, most) * n,
+               .share = outward == 0.0 ? 0.5 : 0.5 + 0.5 * outward / std::max(in.x[i], 2.0 * std::abs(outward))};
 }
 
 bool may_split(const Group& group) { return group.body->variable_h && group.body->split > 1; }
@@ -186,23 +190,23 @@ double split(ParticleSet& set, const std::vector<Split>& splits) {
   for (std::uint32_t k = 0; k < splits.size(); ++k) {
     const std::uint32_t one = moved(splits[k].particle), other = one + 1;
     p.id[other] = first_new + k;
-    const double kinetic = 0.5 * splits[k].parting.squaredNorm();
+    const auto& [particle, offset, parting, share] = splits[k];
+    const double kinetic = 2.0 * share * (1.0 - share) * parting.squaredNorm();
     const bool pays = materials::uses_energy(body_of(set, one).material.law);
     if (!pays) owed += p.mass[one] * kinetic;
     for (const std::uint32_t i : {one, other}) {
-      p.mass[i] *= 0.5;
+      p.mass[i] *= i == one ? share : 1.0 - share;
       if (pays) p.energy[i] -= kinetic;
       ++p.halvings[i];
-      const double side = i == one ? 1.0 : -1.0;
-      const Vec3 offset = side * splits[k].offset, parting = side * splits[k].parting;
-      p.vx[i] += parting[0];
-      p.vy[i] += parting[1];
-      p.vz[i] += parting[2];
+      const double side = i == one ? 1.0 : -1.0, far = i == one ? 2.0 * (1.0 - share) : -2.0 * share;
+      p.vx[i] += far * parting[0];
+      p.vy[i] += far * parting[1];
+      p.vz[i] += far * parting[2];
       for (ParticleState* state : {static_cast<ParticleState*>(&p), &p.start}) {
         if (state->x.empty()) continue;
-        state->x[i] += offset[0];
-        state->y[i] += offset[1];
-        state->z[i] += offset[2];
+        state->x[i] += side * offset[0];  // of a ring: its radius
+        state->y[i] += far * offset[1];
+        state->z[i] += far * offset[2];
       }
     }
   }

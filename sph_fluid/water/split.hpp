@@ -26,11 +26,13 @@ inline double even_growth(double growth, bool half, int dimension) {
   return std::max(std::min(half ? 2.0 * growth : growth, even), growth / std::sqrt(2.0));
 }
 
-/// A particle, and how its halves differ from it, one by plus, one by minus that.
+/// A particle, and how its halves differ from it, one by plus, one by minus that; of rings, whose halves have masses as their
+/// radii and so one area, each by as much as leaves the mean of velocity and of z.
 struct Split {
   std::uint32_t particle;
   Vec3 offset;                  ///< of their places [m]
   Vec3 parting = Vec3::Zero();  ///< of their velocities, along the offset: no angular momentum [m/s]
+  double share = 0.5;           ///< of the mass, of the first
 };
 
 /// Has a particle of the set grown so far by `time` [s]?

@@ -101,6 +101,33 @@ TEST(Split, KeepsAllTotalsOfBodies) {
   }
 }
 
+/// Halves of a ring have one area and density, however near the axis it is, and keep mass, momentum along the axis, its middle along
+/// it, and energy.
+TEST(Split, HalvesOfARingHaveOneArea) {
+  const Body charge = body("charge", box(Vec3(0, 0, 0), Vec3(1, 1, 1)), "tnt");
+  ParticleSet set;
+  Particles& p = set.particles;
+  p.resize(1, true);
+  p.x[0] = 0.5, p.y[0] = 2.0, p.vx[0] = 3.0, p.vy[0] = 4.0;
+  p.rho[0] = 2.0, p.mass[0] = 5.0, p.energy[0] = 100.0;
+  p.make_room(SecondRow::gradient, 1.0, /*of_stages=*/false, /*rings=*/true);
+  Group group;
+  group.body = &charge;
+  group.end = 1;
+  set.groups.push_back(group);
+  const Sums before = sums_of(set, group);
+  const Vec3 offset(0.2, 0.1, 0.0);
+  split(set, {{.particle = 0, .offset = offset, .parting = 0.3 * offset, .share = 0.5 + 0.5 * 0.2 / 0.5}});
+  const Sums after = sums_of(set, set.groups[0]);
+  ASSERT_EQ(p.size(), 2u);
+  EXPECT_NEAR(p.mass[0] / p.x[0], p.mass[1] / p.x[1], 1e-14 * p.mass[0] / p.x[0]);
+  EXPECT_NEAR(after.mass, before.mass, 1e-14);
+  EXPECT_NEAR(after.moment[1], before.moment[1], 1e-14);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13);
+  EXPECT_NEAR(after.kinetic + after.internal, before.kinetic + before.internal, 1e-11);
+  EXPECT_GT(after.kinetic, before.kinetic);
+}
+
 /// Gas that expands into nothing beside a wall and symmetry planes, in water's company.
 Settings expanding(int dimension, bool rings, int threads = 1) {
   Settings settings;
