@@ -101,8 +101,8 @@ TEST(Split, KeepsAllTotalsOfBodies) {
   }
 }
 
-/// Halves of a ring have one area and density, however near the axis it is. Mass, momentum along the axis, the middle along it and
-/// energy stay.
+/// Halves of a ring have one area and density, however near the axis it is. Mass, momentum along the axis, the middle along it
+/// and energy stay.
 TEST(Split, HalvesOfARingHaveOneArea) {
   const Body charge = body("charge", box(Vec3(0, 0, 0), Vec3(1, 1, 1)), "tnt");
   ParticleSet set;
