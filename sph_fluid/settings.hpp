@@ -165,6 +165,11 @@ struct StartField {
   LaidParticles laid;  ///< where there are some they are the body, and nothing else counts
 };
 
+/// A scene's default of `split` for gas with an energy field: the least power of two with which the products of an explosive
+/// keep their neighbours from 1600 kg/m^3 to the density of air, 1.2. In space h follows the volume of the last parts to h_high^3
+/// sqrt 2 = 38 cells (water/split.hpp).
+inline constexpr int split_of_gas = 64;
+
 struct Body {
   std::string name;
   Shape shape;
@@ -177,7 +182,7 @@ struct Body {
   std::optional<materials::ProgrammedBurn> burn;  ///< charges: default is an instantaneous burn only where asked
   /// May the smoothing length follow the density? Default: gases and detonation products do, liquids do not.
   bool variable_h = false;
-  /// Particles that have grown past twice their cell split, until there are this many times as many; 1: never (water/split.hpp).
+  /// Particles that have grown past twice their width split, one that was laid into this many at most; 1: never (split.hpp).
   int split = 1;
   std::shared_ptr<const StartField> start;  ///< null: uniform, as above
   double radial_velocity = 0;               ///< away from the middle of the shape's base, added to `velocity` [m/s]
@@ -255,9 +260,10 @@ void describe(Body& body, Visit&& visit) {
   visit(body.split,
         {.name = "split",
          .range = Range::between(1, 10000),
+         .rule = "64 for gases and charges whose law has an energy, else 1",
          .used = body.variable_h,
-         .meaning = "where it does: particles that have grown past twice their volume on the lattice split in two, until "
-                    "there are this many times as many; 1: never"});
+         .meaning = "where it does: particles that have grown past twice their width on the lattice split in two, one that was "
+                    "laid into this many at most; 1: never"});
 }
 
 /// Specific internal energy [J/kg] of a uniform body at the start.

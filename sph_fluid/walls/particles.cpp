@@ -46,7 +46,7 @@ void Particles::resize(std::size_t n, bool with_energy) {
   }
   if (with_energy) energy.assign(n, 0.0);
   id.resize(n);
-  half.assign(n, 0);
+  halvings.assign(n, 0);
 }
 
 void Particles::make_room(SecondRow second, double alpha, bool of_stages, bool rings) {

@@ -36,9 +36,9 @@ struct ParticleState {
 };
 
 struct Particles : ParticleState {
-  std::vector<double> mass;        ///< [kg]
-  std::vector<std::uint32_t> id;   ///< place at the start
-  std::vector<std::uint8_t> half;  ///< 1: one of the halves of a particle that has split (water/split.hpp)
+  std::vector<double> mass;            ///< [kg]
+  std::vector<std::uint32_t> id;       ///< place at the start
+  std::vector<std::uint8_t> halvings;  ///< how often what was laid has split to become this particle (water/split.hpp)
 
   /// Rates. The pair loop sums forces per volume; after the evaluation fx, fy, fz are the acceleration [m/s^2] and `heat` is
   /// the viscous heating, or the whole rate of `energy` where that is a field [W/kg].
@@ -130,16 +130,17 @@ inline constexpr auto state_arrays = [] {
 
 inline constexpr auto further_arrays = [] {
   using P = Particles;
-  return std::tuple(
-      ArrayOf<P, double, 1>{"mass", Role::constant, {&P::mass}}, ArrayOf<P, std::uint32_t, 1>{"id", Role::constant, {&P::id}},
-      ArrayOf<P, std::uint8_t, 1>{"half", Role::constant, {&P::half}}, ArrayOf<P, SumRow, 1>{"rate", Role::rate, {&P::rate}},
-      ArrayOf<P, EarlierRates, 1>{"earlier rate", Role::rate, {&P::earlier}},
-      ArrayOf<P, OtherRates, 1>{"other rates", Role::rate, {&P::other}},
-      ArrayOf<P, std::uint32_t, 1>{"place", Role::index, {&P::place}},
-      ArrayOf<P, FluidRow, 1>{"predicted state", Role::scratch, {&P::predicted}},
-      ArrayOf<P, GradientRow, 1>{"gradient", Role::evaluated, {&P::gradient}},
-      ArrayOf<P, CorrectedRow, 1>{"corrected gradient", Role::evaluated, {&P::corrected}},
-      ArrayOf<P, RingRow, 1>{"ring", Role::scratch, {&P::ring}});
+  return std::tuple(ArrayOf<P, double, 1>{"mass", Role::constant, {&P::mass}},
+                    ArrayOf<P, std::uint32_t, 1>{"id", Role::constant, {&P::id}},
+                    ArrayOf<P, std::uint8_t, 1>{"halvings", Role::constant, {&P::halvings}},
+                    ArrayOf<P, SumRow, 1>{"rate", Role::rate, {&P::rate}},
+                    ArrayOf<P, EarlierRates, 1>{"earlier rate", Role::rate, {&P::earlier}},
+                    ArrayOf<P, OtherRates, 1>{"other rates", Role::rate, {&P::other}},
+                    ArrayOf<P, std::uint32_t, 1>{"place", Role::index, {&P::place}},
+                    ArrayOf<P, FluidRow, 1>{"predicted state", Role::scratch, {&P::predicted}},
+                    ArrayOf<P, GradientRow, 1>{"gradient", Role::evaluated, {&P::gradient}},
+                    ArrayOf<P, CorrectedRow, 1>{"corrected gradient", Role::evaluated, {&P::corrected}},
+                    ArrayOf<P, RingRow, 1>{"ring", Role::scratch, {&P::ring}});
 }();
 
 /// How many arrays a list holds.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "sph_fluid/lattice.hpp"
@@ -69,6 +70,8 @@ void Evaluation::rates(ParticleSet& set, const Ahead& ahead) {
   finish_rates(set);
 }
 
+double Evaluation::take_parted() { return std::exchange(parted_, 0.0); }
+
 void Evaluation::rest(ParticleSet& set, double time) {
   std::fill(set.particles.rate.begin(), set.particles.rate.end(), SumRow{});
   sort(set);
@@ -118,7 +121,9 @@ void Evaluation::split_grown(ParticleSet& set, const Ahead& ahead) {
   find_images(set, {.at_rest = true});  // radiating faces are shown once, by the evaluation
   {
     const auto timer = timers_.measure("splitting");
-    split(set, find_splits(set, settings_, ahead.time, pair_input(set)));
+    const std::vector<Split> splits = find_splits(set, settings_, ahead.time, pair_input(set));
+    // The images that have been found are found again, from the sorted particles alone.
+    if (!splits.empty()) parted_ += split(set, splits);
   }
   const Clamps counted = clamps_;
   sort(set);
@@ -180,7 +185,8 @@ void Evaluation::evaluate_group(ParticleSet& set, const Law& law, Group& group, 
     if (rings_) q.vz = variable ? ring_area(q.volume, r) : q.volume / (2.0 * std::numbers::pi * r);
     if (variable) {
       const double growth = (rings_ ? q.vz : q.volume) / cell;
-      const double wanted = std::pow(group.body->split > 1 ? even_growth(growth, p.half[i]) : growth, inverse_dimension);
+      const double wanted = std::pow(group.body->split > 1 ? even_growth(growth, p.halvings[i] > 0, settings_.dimension) : growth,
+                                     inverse_dimension);
       held += wanted < low || wanted > high;
       q.h *= std::clamp(wanted, low, high);
       h_max = std::max(h_max, q.h);

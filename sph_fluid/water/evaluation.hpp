@@ -38,6 +38,8 @@ class Evaluation {
   /// Pressures of its present state, and no rates.
   void rest(ParticleSet& set, double time);
   void pack_walls(const ParticleSet& set);
+  /// What splits have made kinetic energy of and no energy field has lost, since it was last asked for [J].
+  double take_parted();
 
   const PairLoops& loops() const { return loops_; }
   const SlipFaces& slip_faces() const { return slip_faces_; }
@@ -79,6 +81,7 @@ class Evaluation {
   int threads_;
   PairMemory memory_;
   long long interactions_ = 0;
+  double parted_ = 0;  // see take_parted
 };
 
 /// Density after half a step: rho exp(D dt) to third order in D dt, positive however large the rate.

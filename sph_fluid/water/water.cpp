@@ -14,6 +14,7 @@ Water::Water(const Settings& given)
 
 void Water::evaluate(ParticleSet& set, const Ahead& ahead) {
   evaluation.rates(set, ahead);
+  exchange.dissipated -= evaluation.take_parted();
   if (settings.numerics.integrator == Integrator::ssp_rk3 || set.choice == PairChoice::slow) walls_seen = walls.motions();
   evaluated = true;
 }
