@@ -311,7 +311,6 @@ sph::Body read_body(const Node& node, const std::string& path, Draft& draft, boo
   const Node* material = table.find("material");
   const bool material_good = material && read_fluid_material(*material, table.path_of("material"), draft, body.material);
   body.variable_h = material_good && is_gas(body.material.law);
-  if (body.variable_h && uses_energy(body.material.law)) body.split = sph::split_of_gas;
   read_fields(table, body);
   read_level(table, draft.scene.fluid.gravity, body);
   read_radial(table, body.radial);

@@ -165,11 +165,6 @@ struct StartField {
   LaidParticles laid;  ///< where there are some they are the body, and nothing else counts
 };
 
-/// A scene's default of `split` for gas with an energy field: the least power of two with which the products of an explosive
-/// keep their neighbours from 1600 kg/m^3 to the density of air, 1.2. In space h follows the volume of the last parts to h_high^3
-/// sqrt 2 = 38 cells (water/split.hpp).
-inline constexpr int split_of_gas = 64;
-
 struct Body {
   std::string name;
   Shape shape;
@@ -260,7 +255,6 @@ void describe(Body& body, Visit&& visit) {
   visit(body.split,
         {.name = "split",
          .range = Range::between(1, 10000),
-         .rule = "64 for gases and charges whose law has an energy, else 1",
          .used = body.variable_h,
          .meaning = "where it does: particles that have grown past twice their width on the lattice split in two, one that was "
                     "laid into this many at most; 1: never"});
