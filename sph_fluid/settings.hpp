@@ -352,8 +352,9 @@ struct Numerics {
   int threads = 0;  ///< 0: all the machine has
 };
 
-/// Defaults of parameters that depend on others; given(key): does the scene name it? with_liquid: does a body keep its h? In three dimensions no figure of any scene
-/// moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one and two there is little to save.
+/// Defaults of parameters that depend on others; given(key): does the scene name it? `with_liquid`: does a body keep its h?
+/// In three dimensions no figure of any scene moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one
+/// and two there is little to save.
 void apply_defaults(Numerics& numerics, int dimension, bool with_liquid, auto&& given) {
   if (!given("kernel") && numerics.scheme == SchemeName::paper) numerics.kernel = KernelName::gaussian;
   if (!given("precision")) numerics.precision = dimension == 3 ? Precision::mixed : Precision::full;
