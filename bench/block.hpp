@@ -54,9 +54,8 @@ inline std::vector<Variant> variants() {
   }
   for (const Precision precision : {Precision::full, Precision::mixed}) {
     Variant corrected{
-        precision == Precision::full ? "riemann_corrected/wendland_c2_1.1" : "riemann_corrected/wendland_c2_1.1/mixed", {}};
+        precision == Precision::full ? "riemann_corrected/wendland_c2_1.5" : "riemann_corrected/wendland_c2_1.5/mixed", {}};
     corrected.numerics.scheme = SchemeName::riemann_corrected;
-    corrected.numerics.eta = sph::default_eta(KernelName::wendland_c2, SchemeName::riemann_corrected, true);
     corrected.numerics.precision = precision;
     all.push_back(corrected);
   }

@@ -68,9 +68,7 @@ void read_scheme(const TableReader& top, Draft& draft) {
   const Node defaults;
   const TableReader table(node ? *node : defaults, "scheme", "scheme", top.dimension(), draft.report);
   read_fields(table, numerics);
-  const auto& bodies = draft.scene.fluid.bodies;
-  const bool liquid = std::any_of(bodies.begin(), bodies.end(), [](const sph::Body& body) { return !body.variable_h; });
-  sph::apply_defaults(numerics, top.dimension(), liquid, [&](const char* key) { return table.has(key); });
+  sph::apply_defaults(numerics, top.dimension(), [&](const char* key) { return table.has(key); });
   if (numerics.scheme == sph::SchemeName::monaghan_switch && !(numerics.alpha > 0.0 && numerics.alpha >= numerics.alpha_min))
     table.complain(table.has("alpha_min") ? "alpha_min" : "alpha",
                    "scheme.alpha = " + shortest(numerics.alpha) +
@@ -476,8 +474,8 @@ void read_fluid(Draft& draft) {
   read_resolution(top, draft);
   read_symmetry(top, draft);
   read_surroundings(top, draft);
-  read_bodies(top, draft);
   read_scheme(top, draft);
+  read_bodies(top, draft);
   const auto walls = top.tables("walls");
   for (std::size_t i = 0; i < walls.size(); ++i) read_wall(*walls[i], element_path("walls", *walls[i], i), draft);
   find_sources(draft);

@@ -55,13 +55,6 @@ inline double default_courant(Integrator integrator, KernelName kernel, SchemeNa
   return scheme == SchemeName::riemann_corrected && kernel != KernelName::wendland_c6 ? 0.4 : usual;
 }
 
-/// h/dx of a scene that names none. Sums corrected along the pair are best where the second moment of the kernel on a lattice is
-/// that of the continuum, and stationary: 1.1 for C2. Gases by themselves, packed far from their lattice, want more neighbours.
-inline double default_eta(KernelName kernel, SchemeName scheme, bool with_liquid) {
-  if (scheme == SchemeName::riemann_corrected && kernel == KernelName::wendland_c2 && with_liquid) return 1.1;
-  return with_kernel(kernel, [](auto k) { return k.usual_eta; });
-}
-
 /// What a wall does to the flow.
 enum class FaceCondition {
   no_slip,
@@ -352,13 +345,12 @@ struct Numerics {
   int threads = 0;  ///< 0: all the machine has
 };
 
-/// Defaults of parameters that depend on others; given(key): does the scene name it? `with_liquid`: does a body keep its h?
-/// In three dimensions no figure of any scene moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one
-/// and two there is little to save.
-void apply_defaults(Numerics& numerics, int dimension, bool with_liquid, auto&& given) {
+/// Defaults of parameters that depend on others; given(key): does the scene name it? In three dimensions no figure of any scene
+/// moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one and two there is little to save.
+void apply_defaults(Numerics& numerics, int dimension, auto&& given) {
   if (!given("kernel") && numerics.scheme == SchemeName::paper) numerics.kernel = KernelName::gaussian;
   if (!given("precision")) numerics.precision = dimension == 3 ? Precision::mixed : Precision::full;
-  if (!given("eta")) numerics.eta = default_eta(numerics.kernel, numerics.scheme, with_liquid);
+  if (!given("eta")) numerics.eta = with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
   if (!given("beta") && numerics.scheme == SchemeName::monaghan_switch) numerics.beta = 2.0;
   if (!given("courant")) numerics.courant = default_courant(numerics.integrator, numerics.kernel, numerics.scheme);
 }
@@ -376,12 +368,10 @@ void describe(Numerics& numerics, Visit&& visit) {
          .rule = "\"mixed\" in three dimensions, else \"full\"",
          .meaning = "of the loop over pairs: double, or single with a double state "
                     "([error](../results/performance.md#mixed-precision)); \"mixed\" for spacings from 2e-5 m on"});
-  visit(numerics.eta,
-        {.name = "eta",
-         .range = Range::between(0.8, 3),
-         .rule = "1.5, with riemann_corrected and a liquid 1.1; wendland_c4 1.75, wendland_c6 2, cubic_spline 1.325, "
-                 "quintic_spline 1.1, gaussian 1.2",
-         .meaning = "smoothing length h/dx"});
+  visit(numerics.eta, {.name = "eta",
+                       .range = Range::between(0.8, 3),
+                       .rule = "1.5; wendland_c4 1.75, wendland_c6 2, cubic_spline 1.325, quintic_spline 1.1, gaussian 1.2",
+                       .meaning = "smoothing length h/dx"});
   visit(numerics.alpha, {.name = "alpha",
                          .range = Range::between(0, 100),
                          .meaning = "artificial viscosity: its linear coefficient; \"monaghan_switch\": the upper bound"});
