@@ -54,8 +54,9 @@ inline std::vector<Variant> variants() {
   }
   for (const Precision precision : {Precision::full, Precision::mixed}) {
     Variant corrected{
-        precision == Precision::full ? "riemann_corrected/wendland_c2_1.5" : "riemann_corrected/wendland_c2_1.5/mixed", {}};
+        precision == Precision::full ? "riemann_corrected/wendland_c4_1.3" : "riemann_corrected/wendland_c4_1.3/mixed", {}};
     corrected.numerics.scheme = SchemeName::riemann_corrected;
+    corrected.numerics.kernel = KernelName::wendland_c4, corrected.numerics.eta = 1.3;
     corrected.numerics.precision = precision;
     all.push_back(corrected);
   }

@@ -48,11 +48,22 @@ constexpr auto words(Integrator) {
 }
 
 /// Courant number of a scene that names none. C6 is slim within its support: for its width, 0.35 is the step that 0.45 is for C2,
-/// where waves grow (docs/results/performance.md). Central fluxes of fourth order leave more room.
-inline double default_courant(Integrator integrator, KernelName kernel, SchemeName scheme = SchemeName::riemann) {
-  const double usual = kernel == KernelName::wendland_c6 ? 0.27 : 0.35;
-  if (integrator == Integrator::ssp_rk3) return 2.0 * usual;
-  return scheme == SchemeName::riemann_corrected && kernel != KernelName::wendland_c6 ? 0.4 : usual;
+/// where waves grow (docs/results/performance.md).
+inline double default_courant(Integrator integrator, KernelName kernel) {
+  const double leapfrog = kernel == KernelName::wendland_c6 ? 0.27 : 0.35;
+  return integrator == Integrator::ssp_rk3 ? 2.0 * leapfrog : leapfrog;
+}
+
+/// Kernel of a scene that names none, and its h/dx. riemann_corrected takes C4 at the least h/dx where the second moment of the
+/// kernel on a lattice is stationary: a lattice that is stretched then keeps its sums (docs/theory/equations.md).
+inline KernelName default_kernel(SchemeName scheme) {
+  return scheme == SchemeName::paper               ? KernelName::gaussian
+         : scheme == SchemeName::riemann_corrected ? KernelName::wendland_c4
+                                                   : KernelName::wendland_c2;
+}
+inline double default_eta(SchemeName scheme, KernelName kernel) {
+  if (scheme == SchemeName::riemann_corrected && kernel == KernelName::wendland_c4) return 1.3;
+  return with_kernel(kernel, [](auto k) { return k.usual_eta; });
 }
 
 /// What a wall does to the flow.
@@ -348,11 +359,11 @@ struct Numerics {
 /// Defaults of parameters that depend on others; given(key): does the scene name it? In three dimensions no figure of any scene
 /// moves by more than 2e-6 in mixed precision (docs/results/performance.md); in one and two there is little to save.
 void apply_defaults(Numerics& numerics, int dimension, auto&& given) {
-  if (!given("kernel") && numerics.scheme == SchemeName::paper) numerics.kernel = KernelName::gaussian;
+  if (!given("kernel")) numerics.kernel = default_kernel(numerics.scheme);
   if (!given("precision")) numerics.precision = dimension == 3 ? Precision::mixed : Precision::full;
-  if (!given("eta")) numerics.eta = with_kernel(numerics.kernel, [](auto kernel) { return kernel.usual_eta; });
+  if (!given("eta")) numerics.eta = default_eta(numerics.scheme, numerics.kernel);
   if (!given("beta") && numerics.scheme == SchemeName::monaghan_switch) numerics.beta = 2.0;
-  if (!given("courant")) numerics.courant = default_courant(numerics.integrator, numerics.kernel, numerics.scheme);
+  if (!given("courant")) numerics.courant = default_courant(numerics.integrator, numerics.kernel);
 }
 
 template <class Visit>
@@ -361,7 +372,7 @@ void describe(Numerics& numerics, Visit&& visit) {
                           .meaning = "how a pair of particles dissipates: a Riemann flux or artificial viscosity "
                                      "([schemes](../theory/equations.md#3-pair-schemes))"});
   visit(numerics.kernel, {.name = "kernel",
-                          .rule = "\"wendland_c2\"; paper \"gaussian\"",
+                          .rule = "\"wendland_c2\"; riemann_corrected \"wendland_c4\", paper \"gaussian\"",
                           .meaning = "smoothing kernel; radius 2h, of the quintic spline and the Gaussian 3h"});
   visit(numerics.precision,
         {.name = "precision",
@@ -370,7 +381,8 @@ void describe(Numerics& numerics, Visit&& visit) {
                     "([error](../results/performance.md#mixed-precision)); \"mixed\" for spacings from 2e-5 m on"});
   visit(numerics.eta, {.name = "eta",
                        .range = Range::between(0.8, 3),
-                       .rule = "1.5; wendland_c4 1.75, wendland_c6 2, cubic_spline 1.325, quintic_spline 1.1, gaussian 1.2",
+                       .rule = "1.5; wendland_c4 1.75, with riemann_corrected 1.3; wendland_c6 2, cubic_spline 1.325, "
+                               "quintic_spline 1.1, gaussian 1.2",
                        .meaning = "smoothing length h/dx"});
   visit(numerics.alpha, {.name = "alpha",
                          .range = Range::between(0, 100),
@@ -386,7 +398,7 @@ void describe(Numerics& numerics, Visit&& visit) {
                                          "([comparison](../results/performance.md#runge-kutta-instead-of-the-leapfrog))"});
   visit(numerics.courant, {.name = "courant",
                            .range = Range::above(0, 2),
-                           .rule = "0.35; wendland_c6 0.27; ssp_rk3 twice that; riemann_corrected with the leapfrog 0.4",
+                           .rule = "0.35; wendland_c6 0.27; ssp_rk3 twice that",
                            .meaning = "Courant number of the step: share of h over the signal speed"});
   visit(numerics.fixed_step, {.name = "fixed_step",
                               .unit = "s",

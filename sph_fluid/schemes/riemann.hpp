@@ -82,8 +82,8 @@ struct Riemann {
     V inverse_r, u, p_star, u_star;
   };
 
-  /// Central parts take 1/nth of the limited rises.
-  template <int nth>
+  /// `order` of a sum over pairs of the central parts, 2 or 4.
+  template <int order>
   UNDEX_INLINE static Flux flux(const State& i, const State& j, const Pair<V>& pair) {
     const V dx = pair.dx, dy = pair.dy, dz = pair.dz;
     const V inverse_r = reciprocal_sqrt(pair.r2 + T(1e-30));
@@ -104,9 +104,11 @@ struct Riemann {
     const V inverse_Z = reciprocal(Zi + Zj);
     const V jump = uL - uR;
     const V closing = maximum(jump, V{});
-    constexpr T part = T(2.0 / nth);  // of the halves
-    V central_p = T(0.5) * ((i.p + part * pi) + (j.p - part * pj));
-    V central_u = (Zi * (part * ui) + Zj * (u - part * uj)) * inverse_Z;
+    V central_p = T(0.5) * (pL + pR), central_u = (Zi * uL + Zj * uR) * inverse_Z;
+    if constexpr (order == 4) {
+      central_p -= T(1.0 / 6) * (pi - pj);
+      central_u -= T(1.0 / 6) * (ui - uj);
+    }
     if (pair.gas) {
       central_p = pair.alike ? T(0.5) * (i.p + j.p) : (j.rho * i.p + i.rho * j.p) * reciprocal(rho);
       central_u = pair.alike ? T(0.5) * u : Zj * u * inverse_Z;
@@ -126,9 +128,9 @@ struct Riemann {
 
   /// What the two give each other, with central parts as in `flux` and a slope F for force and energy; the part of the density
   /// rate that follows their distance has `own` times F. Returns p*.
-  template <int nth>
+  template <int order>
   UNDEX_INLINE static V exchange(const State& i, const State& j, const Pair<V>& pair, V F, V own, Sums& si, Sums& sj) {
-    const auto [inverse_r, u, p_star, u_star] = flux<nth>(i, j, pair);
+    const auto [inverse_r, u, p_star, u_star] = flux<order>(i, j, pair);
     add_force(F * p_star, pair, i.volume, j.volume, si, sj);
     const V Fr = F * (pair.r2 * inverse_r);
     const V Di = j.volume * (Fr * u_star), Dj = i.volume * (Fr * (u - u_star));

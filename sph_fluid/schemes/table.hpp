@@ -18,7 +18,7 @@ namespace undex::sph {
   ONE_PASS(monaghan_switch, MonaghanSwitch, viscous, no_rings)                                          \
   ONE_PASS(paper, Paper, viscous, no_rings)                                                             \
   TWO_PASSES(riemann, Riemann, Reconstruction, inviscid, rings, Gaussian, WendlandC2)                   \
-  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid, rings, WendlandC2)
+  TWO_PASSES(riemann_corrected, RiemannCorrected, CorrectedReconstruction, inviscid, rings, WendlandC4)
 // clang-format on
 
 enum class SchemeName {
