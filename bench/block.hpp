@@ -56,7 +56,8 @@ inline std::vector<Variant> variants() {
     Variant corrected{
         precision == Precision::full ? "riemann_corrected/wendland_c4_1.3" : "riemann_corrected/wendland_c4_1.3/mixed", {}};
     corrected.numerics.scheme = SchemeName::riemann_corrected;
-    corrected.numerics.kernel = KernelName::wendland_c4, corrected.numerics.eta = 1.3;
+    corrected.numerics.kernel = sph::default_kernel(SchemeName::riemann_corrected);
+    corrected.numerics.eta = sph::default_eta(SchemeName::riemann_corrected, corrected.numerics.kernel);
     corrected.numerics.precision = precision;
     all.push_back(corrected);
   }
